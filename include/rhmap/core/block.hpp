@@ -1,0 +1,93 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <array>
+#include <bit>
+#include <cstdint>
+#include <cstring>
+
+#include "rhmap/core/key.hpp"
+
+namespace rhmap {
+
+/// Slots of a block. A block is a flat piece of octree: 512 cells in Morton order (slots 0 ... 511), the 64 nodes one
+/// depth above them (512 ... 575) and the 8 nodes above those (576 ... 583). Eight siblings are an octet: octets 0 ... 63
+/// hold the cells, 64 ... 71 the middle nodes, 72 the top nodes. Hence the whole of the tree's structure:
+///   - the children of slot s >= 512 are octet s - 512 of the same block;
+///   - the children of a cell are octet 72 of the block of the next level that lies under the cell.
+inline constexpr int kCells = 512;
+inline constexpr int kMiddleSlot = 512;
+inline constexpr int kTopSlot = 576;
+inline constexpr int kSlots = 584;
+inline constexpr int kOctets = 73;
+inline constexpr int kMiddleOctet = 64;
+inline constexpr int kTopOctet = 72;
+inline constexpr int kRootSlot = kMiddleSlot;  ///< in the block of level 0
+
+constexpr int childOctet(int slot) { return slot - kCells; }
+constexpr int parentSlot(int octet) { return octet + kCells; }
+
+/// Depths of a slot below its block's middle: cells +1, middle 0, top -1.
+constexpr int depthStep(int slot) { return slot < kMiddleSlot ? 1 : slot < kTopSlot ? 0 : -1; }
+
+/// Slot of a cell's ancestor (or itself) at the given depth step.
+constexpr int slotAbove(int cell, int depth_step) {
+  return depth_step == 1 ? cell : depth_step == 0 ? kMiddleSlot + (cell >> 3) : kTopSlot + (cell >> 6);
+}
+
+/// First cell (Morton index) below a slot.
+constexpr int firstCell(int slot) {
+  return slot < kMiddleSlot ? slot : slot < kTopSlot ? (slot - kMiddleSlot) << 3 : (slot - kTopSlot) << 6;
+}
+
+using OctetRef = std::uint32_t;  ///< an octet's place in the OctetPool
+
+/// Which nodes exist and where they are kept. Six cache lines; the values live in the OctetPool.
+struct alignas(128) Block {
+  std::array<std::uint8_t, kOctets> mask;   ///< mask[o], bit i: node i of octet o exists
+  std::uint8_t level;                       ///< 0 (root) ... 5 (region)
+  OcTreeKey corner;                         ///< smallest key inside
+  std::array<OctetRef, kOctets> octet;      ///< valid where mask[o] != 0
+  Block* parent;                            ///< holds the cell above this block; null at level 0
+
+  bool has(int slot) const { return mask[static_cast<unsigned>(slot) >> 3] >> (slot & 7) & 1; }
+
+  /// Existence bits of the 64 cells under top node t, Morton order.
+  std::uint64_t cells(int t) const { return word(t); }
+  /// Existence bits of the 64 middle nodes.
+  std::uint64_t middles() const { return word(8); }
+
+  unsigned depth(int slot) const { return static_cast<unsigned>(3 * level + depthStep(slot)); }
+
+  /// Smallest key of the node in a slot.
+  OcTreeKey cornerOf(int slot) const {
+    const auto cell = static_cast<unsigned>(firstCell(slot));
+    const int shift = cellShift(level);
+    return {static_cast<key_type>(corner[0] + (gather3(cell) << shift)),
+            static_cast<key_type>(corner[1] + (gather3(cell >> 1) << shift)),
+            static_cast<key_type>(corner[2] + (gather3(cell >> 2) << shift))};
+  }
+
+ private:
+  std::uint64_t word(int i) const {
+    static_assert(std::endian::native == std::endian::little, "mask bytes are read as little-endian words");
+    std::uint64_t w;
+    std::memcpy(&w, mask.data() + 8 * i, sizeof w);
+    return w;
+  }
+};
+static_assert(sizeof(Block) == 384);
+
+/// A node's place. Empty (block null) where there is none.
+struct NodeRef {
+  Block* block = nullptr;
+  int slot = 0;
+
+  explicit operator bool() const { return block != nullptr; }
+  bool operator==(const NodeRef&) const = default;
+  unsigned depth() const { return block->depth(slot); }
+  OcTreeKey corner() const { return block->cornerOf(slot); }
+  int sibling() const { return slot & 7; }
+};
+
+}  // namespace rhmap

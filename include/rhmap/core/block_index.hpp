@@ -1,0 +1,98 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <utility>
+#include <vector>
+
+namespace rhmap {
+
+/// Open-addressing hash table from 64-bit keys to pointers: linear probing, deletion by shifting back, so that a probe
+/// sequence is one run of memory and there are no tombstones. `find` writes nothing: any number of threads may read.
+template <class T>
+class BlockIndex {
+ public:
+  /// The value under `key`, or null.
+  T* find(std::uint64_t key) const {
+    if (entries_.empty()) return nullptr;
+    for (std::size_t i = home(key);; i = next(i)) {
+      const Entry& e = entries_[i];
+      if (e.key == key && e.value != nullptr) return e.value;
+      if (e.value == nullptr) return nullptr;
+    }
+  }
+
+  /// Adds a key that is not there yet.
+  void insert(std::uint64_t key, T* value) {
+    if ((size_ + 1) * 4 > entries_.size() * 3) grow();
+    place({key, value});
+    ++size_;
+  }
+
+  /// Takes out a key that is there.
+  void erase(std::uint64_t key) {
+    std::size_t hole = home(key);
+    while (entries_[hole].key != key || entries_[hole].value == nullptr) hole = next(hole);
+    for (std::size_t i = next(hole); entries_[i].value != nullptr; i = next(i)) {
+      // An entry may move into the hole unless its home lies cyclically in (hole, i].
+      const std::size_t h = home(entries_[i].key);
+      if (((i - h) & mask()) >= ((i - hole) & mask())) {
+        entries_[hole] = entries_[i];
+        hole = i;
+      }
+    }
+    entries_[hole] = Entry{};
+    --size_;
+  }
+
+  /// Forgets everything; the memory stays for reuse when `keep_memory`.
+  void clear(bool keep_memory = false) {
+    if (keep_memory) {
+      entries_.assign(entries_.size(), Entry{});
+    } else {
+      entries_ = decltype(entries_)();
+      shift_ = 64;
+    }
+    size_ = 0;
+  }
+
+  std::size_t size() const { return size_; }
+  std::size_t memoryUsage() const { return entries_.capacity() * sizeof(Entry); }
+
+  template <class F>
+  void forEach(F&& visit) const {
+    for (const Entry& e : entries_)
+      if (e.value != nullptr) visit(*e.value);
+  }
+
+ private:
+  struct Entry {
+    std::uint64_t key = 0;
+    T* value = nullptr;
+  };
+
+  std::size_t mask() const { return entries_.size() - 1; }
+  std::size_t next(std::size_t i) const { return (i + 1) & mask(); }
+  std::size_t home(std::uint64_t key) const { return static_cast<std::size_t>((key * 0x9e3779b97f4a7c15U) >> shift_); }
+
+  void place(const Entry& e) {
+    std::size_t i = home(e.key);
+    while (entries_[i].value != nullptr) i = next(i);
+    entries_[i] = e;
+  }
+
+  void grow() {
+    const std::vector<Entry> old = std::exchange(entries_, std::vector<Entry>(entries_.empty() ? 16 : entries_.size() * 2));
+    shift_ = 64;
+    for (std::size_t n = entries_.size(); n > 1; n /= 2) --shift_;
+    for (const Entry& e : old)
+      if (e.value != nullptr) place(e);
+  }
+
+  std::vector<Entry> entries_;  // a power of two
+  std::size_t size_ = 0;
+  int shift_ = 64;
+};
+
+}  // namespace rhmap

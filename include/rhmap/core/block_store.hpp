@@ -1,0 +1,274 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <bit>
+#include <cstddef>
+#include <cstdint>
+#include <new>
+#include <type_traits>
+
+#include "rhmap/core/block.hpp"
+#include "rhmap/core/block_index.hpp"
+#include "rhmap/core/block_pool.hpp"
+#include "rhmap/core/octet_pool.hpp"
+
+namespace rhmap {
+
+/// Eight siblings: which of them exist, and where they are. `nodes` is null where none exists.
+template <class NODE>
+struct Octet {
+  NODE* nodes = nullptr;
+  std::uint8_t mask = 0;
+  bool has(unsigned i) const { return mask >> i & 1; }
+};
+
+/// The structure of an octree in a two-layer hash map: blocks found by hashing, nodes found inside a block by index.
+/// Knows nodes, not occupancy. The exact octree is kept: a node is a leaf when it exists and has no existing child.
+///
+/// Invariants: a node exists only if its parent does; a block exists only while one of its nodes does.
+/// Reading is const and writes nothing. Addresses of nodes stay until the node is removed.
+template <class NODE>
+class BlockStore {
+ public:
+  BlockStore() = default;
+  ~BlockStore() { clear(); }
+  BlockStore(const BlockStore&) = delete;
+  BlockStore& operator=(const BlockStore&) = delete;
+
+  /// Number of existing nodes, inner ones and the root included.
+  std::size_t size() const { return size_; }
+  bool empty() const { return root_ == nullptr; }
+
+  // --- finding ------------------------------------------------------------------------------------------------------
+
+  /// The block of this level around `key`, or null.
+  Block* findBlock(const OcTreeKey& key, int level) const { return index_.find(blockKey(key, level)); }
+  /// The region around `key`, or null.
+  Block* findRegion(const OcTreeKey& key) const { return findBlock(key, kRegionLevel); }
+
+  /// The root, or empty.
+  NodeRef root() const { return root_ != nullptr ? NodeRef{root_, kRootSlot} : NodeRef{}; }
+
+  /// The node at `depth` around `key`, or the shallower leaf that contains it; empty if unknown.
+  NodeRef search(const OcTreeKey& key, unsigned depth = kTreeDepth) const {
+    const int level = static_cast<int>(depth + 1) / 3;
+    for (int l = level; l >= 0; --l) {
+      Block* block = findBlock(key, l);
+      if (block == nullptr) continue;
+      const int cell = cellIndex(key, l);
+      const int first = l == level ? slotAbove(cell, static_cast<int>(depth) - 3 * level) : cell;
+      for (int slot = first; slot < kSlots; slot = parentSlot(slot >> 3)) {
+        if (!block->has(slot)) continue;
+        const bool wanted = l == level && slot == first;
+        // A cell of an upper block whose own block was not found has no children.
+        return wanted || slot < kCells || block->mask[childOctet(slot)] == 0 ? NodeRef{block, slot} : NodeRef{};
+      }
+      return {};  // the cell above this block has children, but not this one
+    }
+    return {};
+  }
+
+  /// The deepest existing node on the way to `key`; empty in an empty tree.
+  NodeRef deepest(const OcTreeKey& key) const {
+    for (int l = kRegionLevel; l >= 0; --l) {
+      Block* block = findBlock(key, l);
+      if (block == nullptr) continue;
+      const int cell = cellIndex(key, l);
+      for (int slot = cell; slot < kSlots; slot = parentSlot(slot >> 3))
+        if (block->has(slot)) return {block, slot};
+      return parent({block, kTopSlot});
+    }
+    return {};
+  }
+
+  // --- around a node --------------------------------------------------------------------------------------------------
+
+  NODE* node(NodeRef r) const { return nodes_.nodes(r.block->octet[static_cast<unsigned>(r.slot) >> 3]) + (r.slot & 7); }
+
+  /// Where a node of this store sits; empty for a depth-16 leaf (which has no children to ask for).
+  static NodeRef locate(const NODE* node) { return OctetPool<NODE>::locate(node); }
+
+  /// The parent; empty for the root.
+  static NodeRef parent(NodeRef r) {
+    if (r.slot >= kTopSlot) return {r.block->parent, cellIndex(r.block->corner, r.block->level - 1)};
+    if (r.slot == kRootSlot && r.block->level == 0) return {};
+    return {r.block, parentSlot(r.slot >> 3)};
+  }
+
+  /// The octet below a node as (block, number); empty if it has no children. The number stands in `slot`.
+  NodeRef childOctetOf(NodeRef r) const {
+    if (r.slot >= kCells) return {r.block->mask[childOctet(r.slot)] != 0 ? r.block : nullptr, childOctet(r.slot)};
+    if (r.block->level == kRegionLevel) return {};
+    return {findBlock(r.corner(), r.block->level + 1), kTopOctet};
+  }
+
+  bool hasChildren(NodeRef r) const { return static_cast<bool>(childOctetOf(r)); }
+
+  Octet<NODE> children(NodeRef r) const {
+    const NodeRef o = childOctetOf(r);
+    return o ? octet(o.block, o.slot) : Octet<NODE>{};
+  }
+
+  /// Octet `number` of a block; mask[number] must not be 0.
+  Octet<NODE> octet(const Block* block, int number) const {
+    return {nodes_.nodes(block->octet[number]), block->mask[number]};
+  }
+
+  /// True if any of the eight nodes of this octet has children.
+  bool anyHasChildren(NodeRef octet) const {
+    const Block* block = octet.block;
+    if (octet.slot >= kMiddleOctet) {
+      for (int i = 0; i < 8; ++i)
+        if (block->mask[childOctet(octet.slot * 8 + i)] != 0) return true;
+      return false;
+    }
+    if (block->level == kRegionLevel) return false;
+    for (int i = 0; i < 8; ++i)
+      if (findBlock(block->cornerOf(octet.slot * 8 + i), block->level + 1) != nullptr) return true;
+    return false;
+  }
+
+  // --- changing ---------------------------------------------------------------------------------------------------------
+
+  /// Makes the root of an empty tree.
+  NodeRef createRoot() {
+    root_ = createBlock({0, 0, 0}, 0, nullptr);
+    create(root_, kRootSlot);
+    return root();
+  }
+
+  /// Makes child `i`, which must not exist, with the node type's default value.
+  NodeRef createChild(NodeRef r, int i) {
+    if (r.slot >= kCells) return create(r.block, childOctet(r.slot) * 8 + i);
+    const int level = r.block->level + 1;
+    Block* below = findBlock(r.corner(), level);
+    if (below == nullptr) below = createBlock(r.corner(), level, r.block);
+    return create(below, kTopSlot + i);
+  }
+
+  /// Makes nodes of an existing or new octet of a block: `bits` must not exist yet. Returns the octet's nodes.
+  NODE* createNodes(Block* block, int number, std::uint8_t bits) {
+    if (block->mask[number] == 0) {
+      const bool leaves = block->level == kRegionLevel && number < kMiddleOctet;
+      block->octet[number] = leaves ? nodes_.allocateLeaves() : nodes_.allocateInner(block, number);
+    }
+    NODE* nodes = nodes_.nodes(block->octet[number]);
+    for (unsigned rest = bits; rest != 0; rest &= rest - 1) new (nodes + std::countr_zero(rest)) NODE();
+    block->mask[number] = static_cast<std::uint8_t>(block->mask[number] | bits);
+    size_ += static_cast<std::size_t>(std::popcount(bits));
+    return nodes;
+  }
+
+  /// Makes children `bits` of a node that has none. The octet, as (block, number).
+  NodeRef createChildren(NodeRef r, std::uint8_t bits) {
+    const bool below = r.slot < kCells;
+    Block* block = below ? createBlock(r.corner(), r.block->level + 1, r.block) : r.block;
+    const int number = below ? kTopOctet : childOctet(r.slot);
+    createNodes(block, number, bits);
+    return {block, number};
+  }
+
+  /// Removes a node without children.
+  void remove(NodeRef r) { removeNodes(r.block, r.slot >> 3, static_cast<std::uint8_t>(1U << (r.slot & 7))); }
+
+  /// Removes childless nodes of one octet, and the block with them if nothing is left in it.
+  void removeNodes(Block* block, int number, std::uint8_t bits) {
+    NODE* nodes = nodes_.nodes(block->octet[number]);
+    for (unsigned rest = bits; rest != 0; rest &= rest - 1) nodes[std::countr_zero(rest)].~NODE();
+    block->mask[number] = static_cast<std::uint8_t>(block->mask[number] & ~bits);
+    size_ -= static_cast<std::size_t>(std::popcount(bits));
+    if (block->mask[number] != 0) return;
+    nodes_.release(block->octet[number]);
+    const bool was_last = number == kTopOctet || (block == root_ && number == kRootSlot >> 3);
+    if (!was_last) return;
+    index_.erase(blockKey(block->corner, block->level));
+    blocks_.release(block);
+    if (block == root_) root_ = nullptr;
+  }
+
+  /// Removes a node and all below it.
+  void removeSubtree(NodeRef r) {
+    if (const NodeRef o = childOctetOf(r)) {
+      for (int i = 0; i < 8; ++i)
+        if (o.block->mask[o.slot] >> i & 1) {
+          const bool last = (o.block->mask[o.slot] >> i) == 1;
+          removeSubtree({o.block, o.slot * 8 + i});
+          if (last) break;  // the block may be gone
+        }
+    }
+    remove(r);
+  }
+
+  void clear() {
+    index_.forEach([&](Block& block) {
+      for (int o = 0; o < kOctets; ++o)
+        if (block.mask[o] != 0) destroyOctet(octet(&block, o));
+    });
+    index_.clear();
+    blocks_.clear();
+    nodes_.clear();
+    root_ = nullptr;
+    size_ = 0;
+  }
+
+  /// Makes this empty store a copy of another.
+  void copyFrom(const BlockStore& other) {
+    if (other.empty()) return;
+    copyBlock(other, *other.root_, nullptr);
+    root_ = findBlock({0, 0, 0}, 0);
+    size_ = other.size_;
+  }
+
+  std::size_t memoryUsage() const { return nodes_.memoryUsage() + blocks_.memoryUsage() + index_.memoryUsage(); }
+
+  /// Visits all blocks, in no particular order.
+  template <class F>
+  void forEachBlock(F&& visit) const {
+    index_.forEach(visit);
+  }
+
+ private:
+  static void destroyOctet(Octet<NODE> o) {
+    if constexpr (!std::is_trivially_destructible_v<NODE>)
+      for (unsigned i = 0; i < 8; ++i)
+        if (o.has(i)) o.nodes[i].~NODE();
+  }
+
+  NodeRef create(Block* block, int slot) {
+    createNodes(block, slot >> 3, static_cast<std::uint8_t>(1U << (slot & 7)));
+    return {block, slot};
+  }
+
+  Block* createBlock(const OcTreeKey& corner, int level, Block* parent) {
+    Block* block = blocks_.allocate();
+    block->mask.fill(0);
+    block->level = static_cast<std::uint8_t>(level);
+    block->corner = corner;
+    block->parent = parent;
+    index_.insert(blockKey(corner, level), block);
+    return block;
+  }
+
+  void copyBlock(const BlockStore& other, const Block& from, Block* parent) {
+    Block* to = createBlock(from.corner, from.level, parent);
+    for (int o = 0; o < kOctets; ++o) {
+      if (from.mask[o] == 0) continue;
+      const Octet<NODE> source = other.octet(&from, o);
+      NODE* target = createNodes(to, o, source.mask);
+      for (unsigned i = 0; i < 8; ++i)
+        if (source.has(i)) target[i] = source.nodes[i];
+    }
+    if (from.level == kRegionLevel) return;
+    for (int cell = 0; cell < kCells; ++cell)
+      if (from.has(cell))
+        if (const Block* below = other.findBlock(from.cornerOf(cell), from.level + 1)) copyBlock(other, *below, to);
+  }
+
+  BlockIndex<Block> index_;
+  BlockPool blocks_;
+  OctetPool<NODE> nodes_;
+  Block* root_ = nullptr;
+  std::size_t size_ = 0;
+};
+
+}  // namespace rhmap

@@ -1,0 +1,68 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <cstdint>
+#include <vector>  // OcTreeKey.h uses it without including it
+
+#include <octomap/OcTreeKey.h>
+#include <octomap/octomap_types.h>
+
+/// How a 16-bit OctoMap key splits into a block and a cell of that block.
+///
+/// The tree has depths 0 (root) to 16 (cells). A block holds three of them, its levels count from the root:
+///
+///     level      0         1        2        3         4           5 = a region of 8 x 8 x 8 cells
+///     depths   -1 0 1    2 3 4    5 6 7    8 9 10   11 12 13    14 15 16
+///
+/// (depth -1 does not exist: the root block uses one node of its middle depth and eight of its lowest).
+namespace rhmap {
+
+using octomap::key_type;
+using octomap::KeyRay;
+using octomap::KeySet;
+using octomap::OcTreeKey;
+using octomap::point3d;
+
+inline constexpr unsigned kTreeDepth = 16;
+inline constexpr key_type kTreeMaxVal = 32768;  ///< key of the coordinate 0
+inline constexpr int kRegionLevel = 5;          ///< blocks of this level are the regions
+
+/// Bits of a key below one cell of a block of this level: a cell is 2^shift keys wide.
+constexpr int cellShift(int level) { return 3 * (kRegionLevel - level); }
+
+/// Spreads three bits so that two others fit between each: 0b111 -> 0b1001001.
+constexpr unsigned spread3(unsigned bits) { return (bits & 1) | (bits & 2) << 2 | (bits & 4) << 4; }
+
+/// Inverse of spread3 on the bits 0, 3 and 6.
+constexpr unsigned gather3(unsigned bits) { return (bits & 1) | (bits >> 2 & 2) | (bits >> 4 & 4); }
+
+/// Morton index (x lowest bit) of the cell that holds `key` within its block of this level: 0 ... 511.
+inline int cellIndex(const OcTreeKey& key, int level) {
+  const int shift = cellShift(level);
+  return static_cast<int>(spread3(key[0] >> shift) | spread3(key[1] >> shift) << 1 | spread3(key[2] >> shift) << 2);
+}
+
+/// Names a block in the whole tree: 13 bits an axis, above them the level.
+inline std::uint64_t blockKey(const OcTreeKey& key, int level) {
+  const int shift = cellShift(level) + 3;
+  const auto part = [shift](key_type k) { return static_cast<std::uint64_t>(k >> shift); };
+  return part(key[0]) | part(key[1]) << 13 | part(key[2]) << 26 | static_cast<std::uint64_t>(level) << 39;
+}
+
+/// Smallest key of the node at `depth` that holds `key`.
+inline OcTreeKey lowerCorner(const OcTreeKey& key, unsigned depth) {
+  const auto mask = static_cast<key_type>(0xffffU << (kTreeDepth - depth));
+  return {static_cast<key_type>(key[0] & mask), static_cast<key_type>(key[1] & mask),
+          static_cast<key_type>(key[2] & mask)};
+}
+
+/// OctoMap's name for a node: the key of its centre. Leaves at depth 16 are named by themselves, larger nodes by the
+/// first cell above their middle.
+inline OcTreeKey centreKey(const OcTreeKey& corner, unsigned depth) {
+  if (depth == kTreeDepth) return corner;
+  const auto half = static_cast<key_type>(1U << (kTreeDepth - 1 - depth));
+  return {static_cast<key_type>(corner[0] + half), static_cast<key_type>(corner[1] + half),
+          static_cast<key_type>(corner[2] + half)};
+}
+
+}  // namespace rhmap

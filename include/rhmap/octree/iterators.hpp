@@ -1,0 +1,204 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <bit>
+#include <cstddef>
+#include <iterator>
+
+#include "rhmap/octree/key_space.hpp"
+
+namespace rhmap {
+
+/// OctoMap's iterators without a stack: a node's place is enough to find the next one, depth first, children 0 ... 7.
+/// Any structural change invalidates; changed values do not. `TREE` gives `store()` and `keySpace()`.
+template <class TREE>
+class OcTreeIteratorBase {
+ public:
+  using NodeType = typename TREE::NodeType;
+  using iterator_category = std::forward_iterator_tag;
+  using value_type = NodeType;
+  using difference_type = std::ptrdiff_t;
+  using pointer = NodeType*;
+  using reference = NodeType&;
+
+  /// An end iterator.
+  OcTreeIteratorBase() = default;
+  /// At the root; nodes at `max_depth` are not entered (0: the whole tree).
+  OcTreeIteratorBase(const TREE* tree, unsigned max_depth)
+      : tree_(tree), max_depth_(max_depth == 0 || max_depth > kTreeDepth ? kTreeDepth : max_depth) {
+    if (tree_ != nullptr) at_ = tree_->store().root();
+    if (!at_) *this = {};
+  }
+
+  bool operator==(const OcTreeIteratorBase& other) const { return tree_ == other.tree_ && at_ == other.at_; }
+
+  const NodeType* operator->() const { return tree_->store().node(at_); }
+  NodeType* operator->() { return tree_->store().node(at_); }
+  const NodeType& operator*() const { return *tree_->store().node(at_); }
+  NodeType& operator*() { return *tree_->store().node(at_); }
+
+  /// Centre of the node [m].
+  point3d getCoordinate() const { return tree_->keySpace().keyToCoord(getKey(), getDepth()); }
+  double getX() const { return tree_->keySpace().keyToCoord(getKey()[0], getDepth()); }
+  double getY() const { return tree_->keySpace().keyToCoord(getKey()[1], getDepth()); }
+  double getZ() const { return tree_->keySpace().keyToCoord(getKey()[2], getDepth()); }
+  /// Edge length of the node [m].
+  double getSize() const { return tree_->keySpace().nodeSize(getDepth()); }
+  unsigned getDepth() const { return at_.depth(); }
+  /// Key of the node's centre.
+  OcTreeKey getKey() const { return centreKey(at_.corner(), at_.depth()); }
+  /// Smallest key in the node.
+  OcTreeKey getIndexKey() const { return at_.corner(); }
+
+ protected:
+  static bool everything(NodeRef) { return true; }
+
+  bool atLeaf() const { return getDepth() >= max_depth_ || !tree_->store().hasChildren(at_); }
+
+  /// To the first accepted child; false, and no move, if there is none.
+  template <class Accept>
+  bool enter(Accept&& accept) {
+    if (getDepth() >= max_depth_) return false;
+    const NodeRef octet = tree_->store().childOctetOf(at_);
+    return octet && takeFirst(octet, octet.block->mask[octet.slot], accept);
+  }
+
+  /// To the next accepted node that is not below this one; to the end if there is none.
+  template <class Accept>
+  void passBy(Accept&& accept) {
+    for (;;) {
+      const NodeRef octet{at_.block, at_.slot >> 3};
+      const unsigned later = octet.block->mask[octet.slot] & (0xfeU << at_.sibling());
+      if (takeFirst(octet, later, accept)) return;
+      at_ = BlockStore<NodeType>::parent(at_);
+      if (!at_) break;
+    }
+    *this = {};
+  }
+
+  const TREE* tree_ = nullptr;
+  NodeRef at_;
+  unsigned max_depth_ = 0;
+
+ private:
+  template <class Accept>
+  bool takeFirst(NodeRef octet, unsigned mask, Accept&& accept) {
+    for (; mask != 0; mask &= mask - 1) {
+      const NodeRef child{octet.block, octet.slot * 8 + std::countr_zero(mask)};
+      if (!accept(child)) continue;
+      at_ = child;
+      return true;
+    }
+    return false;
+  }
+};
+
+/// Every node, parents before children.
+template <class TREE>
+class OcTreeTreeIterator : public OcTreeIteratorBase<TREE> {
+  using Base = OcTreeIteratorBase<TREE>;
+
+ public:
+  OcTreeTreeIterator() = default;
+  explicit OcTreeTreeIterator(const TREE* tree, unsigned max_depth = 0) : Base(tree, max_depth) {}
+
+  OcTreeTreeIterator& operator++() {
+    if (this->tree_ != nullptr && !this->enter(Base::everything)) this->passBy(Base::everything);
+    return *this;
+  }
+  OcTreeTreeIterator operator++(int) {
+    auto before = *this;
+    ++*this;
+    return before;
+  }
+
+  /// Childless, or at the depth limit.
+  bool isLeaf() const { return this->atLeaf(); }
+};
+
+/// Leaves; with a depth limit also the inner nodes at that depth.
+template <class TREE>
+class OcTreeLeafIterator : public OcTreeIteratorBase<TREE> {
+  using Base = OcTreeIteratorBase<TREE>;
+
+ public:
+  OcTreeLeafIterator() = default;
+  explicit OcTreeLeafIterator(const TREE* tree, unsigned max_depth = 0) : Base(tree, max_depth) { descend(); }
+
+  OcTreeLeafIterator& operator++() {
+    if (this->tree_ == nullptr) return *this;
+    this->passBy(Base::everything);
+    descend();
+    return *this;
+  }
+  OcTreeLeafIterator operator++(int) {
+    auto before = *this;
+    ++*this;
+    return before;
+  }
+
+ private:
+  void descend() {
+    if (this->tree_ == nullptr) return;
+    while (this->enter(Base::everything)) {
+    }
+  }
+};
+
+/// Leaves that touch a box of keys, by OctoMap's test: on the upper side of a leaf it takes one cell more than there is.
+template <class TREE>
+class OcTreeLeafBbxIterator : public OcTreeIteratorBase<TREE> {
+  using Base = OcTreeIteratorBase<TREE>;
+
+ public:
+  OcTreeLeafBbxIterator() = default;
+  OcTreeLeafBbxIterator(const TREE* tree, const OcTreeKey& min, const OcTreeKey& max, unsigned max_depth = 0)
+      : Base(tree, max_depth), min_(min), max_(max) {
+    descend();
+  }
+  /// Corners in metres; at the end at once if one is outside of the tree.
+  OcTreeLeafBbxIterator(const TREE* tree, const point3d& min, const point3d& max, unsigned max_depth = 0)
+      : Base(tree, max_depth) {
+    if (this->tree_ == nullptr) return;
+    if (!tree->keySpace().coordToKeyChecked(min, min_) || !tree->keySpace().coordToKeyChecked(max, max_)) {
+      *this = {};
+      return;
+    }
+    descend();
+  }
+
+  OcTreeLeafBbxIterator& operator++() {
+    if (this->tree_ == nullptr) return *this;
+    this->passBy(overlap());
+    descend();
+    return *this;
+  }
+  OcTreeLeafBbxIterator operator++(int) {
+    auto before = *this;
+    ++*this;
+    return before;
+  }
+
+ private:
+  auto overlap() const {
+    return [this](NodeRef child) {
+      const unsigned depth = child.depth();
+      const OcTreeKey key = centreKey(child.corner(), depth);
+      const int half = kTreeMaxVal >> depth;
+      for (unsigned i = 0; i < 3; ++i)
+        if (min_[i] > key[i] + half || max_[i] < key[i] - half) return false;
+      return true;
+    };
+  }
+
+  /// To the next leaf from here on: an inner node without an accepted child is passed by.
+  void descend() {
+    while (this->tree_ != nullptr && !this->atLeaf())
+      if (!this->enter(overlap())) this->passBy(overlap());
+  }
+
+  OcTreeKey min_;
+  OcTreeKey max_;
+};
+
+}  // namespace rhmap

@@ -1,0 +1,309 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <array>
+#include <limits>
+#include <memory>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "rhmap/core/block_store.hpp"
+#include "rhmap/octree/abstract_octree.hpp"
+#include "rhmap/octree/iterators.hpp"
+#include "rhmap/octree/key_space.hpp"
+#include "rhmap/octree/ray.hpp"
+#include "rhmap/octree/structure.hpp"
+
+namespace rhmap {
+
+/// A tree of NODEs without a notion of occupancy, under OctoMap's names and with OctoMap's answers. `INTERFACE` is
+/// AbstractOcTree or AbstractOccupancyOcTree.
+///
+/// Const members may be called from any number of threads at once. Addresses of nodes stay valid until that node is
+/// pruned or deleted. Points outside of the tree (32768 cells from the origin along an axis) and points that are not
+/// finite are "not there": null, false, or end.
+template <class NODE, class INTERFACE>
+class OcTreeBaseImpl : public INTERFACE {
+ public:
+  using NodeType = NODE;
+  using iterator_base = OcTreeIteratorBase<OcTreeBaseImpl>;
+  using tree_iterator = OcTreeTreeIterator<OcTreeBaseImpl>;
+  using leaf_iterator = OcTreeLeafIterator<OcTreeBaseImpl>;
+  using leaf_bbx_iterator = OcTreeLeafBbxIterator<OcTreeBaseImpl>;
+  using iterator = leaf_iterator;
+
+  /// An empty tree with cells of this edge length [m].
+  explicit OcTreeBaseImpl(double resolution) : keys_(resolution) {}
+  OcTreeBaseImpl(const OcTreeBaseImpl& other) : INTERFACE(other), keys_(other.keys_) { store_->copyFrom(*other.store_); }
+  OcTreeBaseImpl& operator=(const OcTreeBaseImpl&) = delete;
+
+  /// Swaps the nodes, and nothing else, with another tree.
+  void swapContent(OcTreeBaseImpl& other) {
+    store_.swap(other.store_);
+    bounds_.reset();
+    other.bounds_.reset();
+  }
+
+  /// Same resolution, same nodes, same values, inner nodes included.
+  bool operator==(const OcTreeBaseImpl& other) const {
+    if (getResolution() != other.getResolution() || size() != other.size()) return false;
+    auto b = other.begin_tree();
+    for (auto a = begin_tree(), end = end_tree(); a != end; ++a, ++b)
+      if (b == other.end_tree() || a.getDepth() != b.getDepth() || a.getKey() != b.getKey() || !(*a == *b)) return false;
+    return b == other.end_tree();
+  }
+
+  std::string getTreeType() const override { return "OcTreeBaseImpl"; }
+
+  /// Edge length of a cell [m]. Setting it keeps the nodes: the map is scaled.
+  double getResolution() const final { return keys_.resolution(); }
+  void setResolution(double resolution) override {
+    keys_ = KeySpace(resolution);
+    bounds_.reset();
+  }
+  unsigned getTreeDepth() const { return kTreeDepth; }
+  /// Edge length of a node at this depth [m].
+  double getNodeSize(unsigned depth) const { return keys_.nodeSize(depth); }
+
+  // --- structure by node pointer ----------------------------------------------------------------------------------
+
+  NODE* getRoot() const { return nodeOrNull(store_->root()); }
+  bool nodeChildExists(const NODE* node, unsigned child) const { return childrenOf(node).has(child); }
+  bool nodeHasChildren(const NODE* node) const { return childrenOf(node).mask != 0; }
+  /// The child, which must exist.
+  NODE* getNodeChild(NODE* node, unsigned child) const { return childrenOf(node).nodes + child; }
+  const NODE* getNodeChild(const NODE* node, unsigned child) const { return childrenOf(node).nodes + child; }
+
+  /// Makes a child that does not exist yet. Not below depth 16: null.
+  NODE* createNodeChild(NODE* node, unsigned child) {
+    const NodeRef at = store_->locate(node);
+    if (!at) return nullptr;
+    bounds_.reset();
+    return store_->node(store_->createChild(at, static_cast<int>(child)));
+  }
+  /// Removes a child and all below it.
+  void deleteNodeChild(NODE* node, unsigned child) {
+    const NodeRef octet = store_->childOctetOf(store_->locate(node));
+    bounds_.reset();
+    store_->removeSubtree({octet.block, octet.slot * 8 + static_cast<int>(child)});
+  }
+
+  /// All eight children exist, are leaves and are equal.
+  bool isNodeCollapsible(const NODE* node) const {
+    const NodeRef at = store_->locate(node);
+    return at && structure::isCollapsible(*store_, at);
+  }
+  /// Gives a leaf eight children with its data. Does nothing at depth 16.
+  void expandNode(NODE* node) {
+    if (const NodeRef at = store_->locate(node)) expandAt(at);
+  }
+  /// Replaces eight equal leaf children by this node; false if it is not collapsible.
+  bool pruneNode(NODE* node) {
+    const NodeRef at = store_->locate(node);
+    return at && pruneAt(at);
+  }
+
+  // --- search and deletion ------------------------------------------------------------------------------------------
+
+  /// The node at `depth` (0: cells, i.e. 16) or the shallower leaf that contains it; null where unknown.
+  NODE* search(const OcTreeKey& key, unsigned depth = 0) const {
+    return nodeOrNull(store_->search(key, depth == 0 ? kTreeDepth : depth));
+  }
+  NODE* search(const point3d& value, unsigned depth = 0) const {
+    OcTreeKey key;
+    return keys_.coordToKeyChecked(value, key) ? search(key, depth) : nullptr;
+  }
+  NODE* search(double x, double y, double z, unsigned depth = 0) const {
+    OcTreeKey key;
+    return keys_.coordToKeyChecked(x, y, z, key) ? search(key, depth) : nullptr;
+  }
+
+  /// Deletes the node at `depth` (0: 16) with all below it, expanding pruned leaves on the way; ancestors that lose their
+  /// last child go with it, except the root. True if the root lost its last child or there was none: OctoMap's answer.
+  bool deleteNode(const OcTreeKey& key, unsigned depth = 0) {
+    bounds_.reset();
+    return structure::deleteNode(*store_, key, depth == 0 ? kTreeDepth : depth);
+  }
+  bool deleteNode(const point3d& value, unsigned depth = 0) {
+    OcTreeKey key;
+    return keys_.coordToKeyChecked(value, key) && deleteNode(key, depth);
+  }
+  bool deleteNode(double x, double y, double z, unsigned depth = 0) {
+    OcTreeKey key;
+    return keys_.coordToKeyChecked(x, y, z, key) && deleteNode(key, depth);
+  }
+
+  void clear() override {
+    store_->clear();
+    bounds_.reset();
+  }
+  /// Collapses level by level from the cells up, and stops at the first level where nothing collapsed, as OctoMap does.
+  void prune() override {
+    structure::pruneLevels(*store_);
+    bounds_.reset();
+  }
+  /// Expands every leaf down to depth 16.
+  void expand() override {
+    structure::expandAll(*store_);
+    bounds_.reset();
+  }
+
+  // --- statistics -----------------------------------------------------------------------------------------------------
+
+  /// Number of nodes, inner ones included.
+  std::size_t size() const override { return store_->size(); }
+  std::size_t calcNumNodes() const { return store_->size(); }
+  std::size_t getNumLeafNodes() const {
+    std::size_t leaves = 0;
+    for (auto it = begin(), last = end(); it != last; ++it) ++leaves;
+    return leaves;
+  }
+  /// Bytes that this tree holds. (OctoMap's own figure is a model that leaves out what the allocator adds.)
+  std::size_t memoryUsage() const override { return sizeof(*this) + sizeof(*store_) + store_->memoryUsage(); }
+  std::size_t memoryUsageNode() const override { return sizeof(NODE); }
+  /// Bytes of a dense grid over the metric bounds.
+  unsigned long long memoryFullGrid() const {
+    if (store_->empty()) return 0;
+    double x, y, z;
+    getMetricSize(x, y, z);
+    const double r = getResolution();
+    return static_cast<unsigned long long>((x / r) * (y / r) * (z / r) * sizeof(getRoot()->getValue()));
+  }
+  /// Volume of the metric bounds [m^3].
+  double volume() {
+    double x, y, z;
+    getMetricSize(x, y, z);
+    return x * y * z;
+  }
+
+  // Bounds of all leaves, free ones too [m]; zeros for an empty tree. The non-const forms remember the answer until the
+  // structure changes, and so are not for several threads.
+  void getMetricMin(double& x, double& y, double& z) override { spread(cachedBounds().min, x, y, z); }
+  void getMetricMin(double& x, double& y, double& z) const override { spread(knownBounds().min, x, y, z); }
+  void getMetricMax(double& x, double& y, double& z) override { spread(cachedBounds().max, x, y, z); }
+  void getMetricMax(double& x, double& y, double& z) const override { spread(knownBounds().max, x, y, z); }
+  void getMetricSize(double& x, double& y, double& z) override { spread(cachedBounds().size(), x, y, z); }
+  void getMetricSize(double& x, double& y, double& z) const { spread(knownBounds().size(), x, y, z); }
+
+  // --- rays -------------------------------------------------------------------------------------------------------------
+
+  /// Keys from the origin's cell (included) to the end's (not included); empty if they are the same. False if one of the
+  /// points is outside of the tree.
+  bool computeRayKeys(const point3d& origin, const point3d& end, KeyRay& ray) const {
+    return rhmap::computeRayKeys(keys_, origin, end, ray);
+  }
+  /// Centres of the ray's cells [m].
+  bool computeRay(const point3d& origin, const point3d& end, std::vector<point3d>& ray) const {
+    ray.clear();
+    return rhmap::forEachRayKey(keys_, origin, end, [&](const OcTreeKey& key) { ray.push_back(keyToCoord(key)); });
+  }
+  /// There are no ray buffers to clear; kept for code that calls it.
+  void clearKeyRays() {}
+
+  // --- files ------------------------------------------------------------------------------------------------------------
+
+  std::istream& readData(std::istream& s) override;
+  std::ostream& writeData(std::ostream& s) const override;
+
+  // --- iterators --------------------------------------------------------------------------------------------------------
+
+  iterator begin(unsigned char max_depth = 0) const { return iterator(this, max_depth); }
+  iterator end() const { return {}; }
+  leaf_iterator begin_leafs(unsigned char max_depth = 0) const { return leaf_iterator(this, max_depth); }
+  leaf_iterator end_leafs() const { return {}; }
+  leaf_bbx_iterator begin_leafs_bbx(const OcTreeKey& min, const OcTreeKey& max, unsigned char max_depth = 0) const {
+    return leaf_bbx_iterator(this, min, max, max_depth);
+  }
+  leaf_bbx_iterator begin_leafs_bbx(const point3d& min, const point3d& max, unsigned char max_depth = 0) const {
+    return leaf_bbx_iterator(this, min, max, max_depth);
+  }
+  leaf_bbx_iterator end_leafs_bbx() const { return {}; }
+  tree_iterator begin_tree(unsigned char max_depth = 0) const { return tree_iterator(this, max_depth); }
+  tree_iterator end_tree() const { return {}; }
+
+  // --- keys and coordinates ---------------------------------------------------------------------------------------------
+
+  key_type coordToKey(double x) const { return keys_.coordToKey(x); }
+  key_type coordToKey(double x, unsigned depth) const { return keys_.coordToKey(x, depth); }
+  OcTreeKey coordToKey(const point3d& p) const { return coordToKey(p.x(), p.y(), p.z()); }
+  OcTreeKey coordToKey(double x, double y, double z) const { return {coordToKey(x), coordToKey(y), coordToKey(z)}; }
+  OcTreeKey coordToKey(const point3d& p, unsigned depth) const { return coordToKey(p.x(), p.y(), p.z(), depth); }
+  OcTreeKey coordToKey(double x, double y, double z, unsigned depth) const {
+    return {coordToKey(x, depth), coordToKey(y, depth), coordToKey(z, depth)};
+  }
+  key_type adjustKeyAtDepth(key_type key, unsigned depth) const { return KeySpace::adjustKeyAtDepth(key, depth); }
+  OcTreeKey adjustKeyAtDepth(const OcTreeKey& key, unsigned depth) const {
+    return KeySpace::adjustKeyAtDepth(key, depth);
+  }
+  bool coordToKeyChecked(double x, key_type& key) const { return keys_.coordToKeyChecked(x, key); }
+  bool coordToKeyChecked(double x, unsigned depth, key_type& key) const {
+    if (!keys_.coordToKeyChecked(x, key)) return false;
+    key = adjustKeyAtDepth(key, depth);
+    return true;
+  }
+  bool coordToKeyChecked(const point3d& p, OcTreeKey& key) const { return keys_.coordToKeyChecked(p, key); }
+  bool coordToKeyChecked(double x, double y, double z, OcTreeKey& key) const {
+    return keys_.coordToKeyChecked(x, y, z, key);
+  }
+  bool coordToKeyChecked(const point3d& p, unsigned depth, OcTreeKey& key) const {
+    return coordToKeyChecked(p.x(), p.y(), p.z(), depth, key);
+  }
+  bool coordToKeyChecked(double x, double y, double z, unsigned depth, OcTreeKey& key) const {
+    return coordToKeyChecked(x, depth, key[0]) && coordToKeyChecked(y, depth, key[1]) &&
+           coordToKeyChecked(z, depth, key[2]);
+  }
+  double keyToCoord(key_type key) const { return keys_.keyToCoord(key); }
+  double keyToCoord(key_type key, unsigned depth) const { return keys_.keyToCoord(key, depth); }
+  point3d keyToCoord(const OcTreeKey& key) const { return keys_.keyToCoord(key); }
+  point3d keyToCoord(const OcTreeKey& key, unsigned depth) const { return keys_.keyToCoord(key, depth); }
+
+  // --- for code that works on the structure itself ------------------------------------------------------------------
+
+  const BlockStore<NODE>& store() const { return *store_; }
+  const KeySpace& keySpace() const { return keys_; }
+
+ protected:
+  struct Bounds {
+    std::array<double, 3> min{}, max{};
+    std::array<double, 3> size() const { return {max[0] - min[0], max[1] - min[1], max[2] - min[2]}; }
+  };
+
+  NODE* nodeOrNull(NodeRef at) const { return at ? store_->node(at) : nullptr; }
+
+  Octet<NODE> childrenOf(const NODE* node) const {
+    const NodeRef at = store_->locate(node);
+    return at ? store_->children(at) : Octet<NODE>{};
+  }
+
+  void expandAt(NodeRef at) {
+    structure::expand(*store_, at);
+    bounds_.reset();
+  }
+  bool pruneAt(NodeRef at) {
+    const bool pruned = structure::prune(*store_, at);
+    if (pruned) bounds_.reset();
+    return pruned;
+  }
+
+  std::unique_ptr<BlockStore<NODE>> store_ = std::make_unique<BlockStore<NODE>>();
+  KeySpace keys_;
+  std::unique_ptr<Bounds> bounds_;  // null: not known
+
+ private:
+  static void spread(const std::array<double, 3>& v, double& x, double& y, double& z) {
+    x = v[0];
+    y = v[1];
+    z = v[2];
+  }
+  const Bounds& cachedBounds() {
+    if (!bounds_) bounds_ = std::make_unique<Bounds>(computeBounds());
+    return *bounds_;
+  }
+  Bounds knownBounds() const { return bounds_ ? *bounds_ : computeBounds(); }
+  Bounds computeBounds() const;
+};
+
+}  // namespace rhmap
+
+#include "rhmap/octree/octree_base_members.hpp"

@@ -1,0 +1,137 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <array>
+#include <bit>
+#include <cstddef>
+#include <cstdint>
+#include <memory>
+#include <vector>
+
+#include "rhmap/core/block_index.hpp"
+#include "rhmap/core/key.hpp"
+
+namespace rhmap {
+
+/// A cell's key as one word: the Morton index in its region (9 bits), above it the region's 13 bits an axis. So that
+///   word & 63 is the cell in its octant (the 4 x 4 x 4 cells under a depth-14 node), word >> 6 names the octant,
+///   word >> 9 the region, and a step along an axis is one addition within that axis' bits.
+namespace cell_word {
+
+inline constexpr std::uint64_t kAxis[3] = {
+    std::uint64_t{0b001001001} | std::uint64_t{0x1fff} << 9,
+    std::uint64_t{0b010010010} | std::uint64_t{0x1fff} << 22,
+    std::uint64_t{0b100100100} | std::uint64_t{0x1fff} << 35,
+};
+
+inline std::uint64_t fromKey(const OcTreeKey& key) {
+  return static_cast<std::uint64_t>(cellIndex(key, kRegionLevel)) |
+         static_cast<std::uint64_t>(key[0] >> 3) << 9 | static_cast<std::uint64_t>(key[1] >> 3) << 22 |
+         static_cast<std::uint64_t>(key[2] >> 3) << 35;
+}
+
+inline OcTreeKey toKey(std::uint64_t word) {
+  const auto cell = static_cast<unsigned>(word & 511);
+  const auto axis = [word, cell](int i, int shift) {
+    return static_cast<key_type>((word >> shift & 0x1fff) << 3 | gather3(cell >> i));
+  };
+  return {axis(0, 9), axis(1, 22), axis(2, 35)};
+}
+
+/// What to add along an axis for a step of +1, -1 or 0.
+constexpr std::uint64_t stepAlong(int axis, int step) {
+  return step > 0 ? std::uint64_t{1} << axis : step < 0 ? kAxis[axis] : 0;
+}
+
+/// One step: an addition whose carries run through this axis' bits only.
+constexpr std::uint64_t advance(std::uint64_t word, std::uint64_t axis_mask, std::uint64_t step) {
+  return (((word | ~axis_mask) + step) & axis_mask) | (word & ~axis_mask);
+}
+
+}  // namespace cell_word
+
+/// What one scan says about the 512 cells of one region; bits in Morton order, one word an octant.
+struct RegionMasks {
+  std::uint64_t region;                ///< cell word >> 9
+  std::array<std::uint64_t, 8> free;   ///< crossed by a ray
+  std::array<std::uint64_t, 8> hit;    ///< a ray ends here: wins over free
+
+  OcTreeKey corner() const { return cell_word::toKey(region << 9); }
+};
+
+/// A scan as two masks a region: the set of cells that any ray crosses and the set of cells that any ray ends in. Marking
+/// is an OR, so neither order nor repetition nor the number of threads matters.
+class ScanMasks {
+ public:
+  ScanMasks() = default;
+  ScanMasks(ScanMasks&&) = default;
+  ScanMasks& operator=(ScanMasks&&) = default;
+
+  /// Marks the cells `bits` of an octant (a cell word >> 6) as crossed.
+  void markFree(std::uint64_t octant, std::uint64_t bits) { at(octant >> 3).free[octant & 7] |= bits; }
+  void markFree(const OcTreeKey& key) {
+    const std::uint64_t word = cell_word::fromKey(key);
+    markFree(word >> 6, std::uint64_t{1} << (word & 63));
+  }
+  void markHit(const OcTreeKey& key) {
+    const std::uint64_t word = cell_word::fromKey(key);
+    at(word >> 9).hit[word >> 6 & 7] |= std::uint64_t{1} << (word & 63);
+  }
+
+  /// Adds what another thread has marked.
+  void merge(const ScanMasks& other) {
+    other.forEachRegion([this](const RegionMasks& from) {
+      RegionMasks& to = at(from.region);
+      for (std::size_t i = 0; i < 8; ++i) {
+        to.free[i] |= from.free[i];
+        to.hit[i] |= from.hit[i];
+      }
+    });
+  }
+
+  /// Visits the regions in the order in which they were first marked.
+  template <class F>
+  void forEachRegion(F&& visit) const {
+    for (std::size_t c = 0; c < chunks_.size(); ++c) {
+      const std::size_t n = c + 1 < chunks_.size() ? kChunk : used_;
+      for (std::size_t i = 0; i < n; ++i) visit(static_cast<const RegionMasks&>(chunks_[c][i]));
+    }
+  }
+
+  /// Visits the keys of all cells: free ones (those that are not hit) as (key, false), hit ones as (key, true).
+  template <class F>
+  void forEachCell(F&& visit) const {
+    forEachRegion([&visit](const RegionMasks& r) {
+      for (std::size_t octant = 0; octant < 8; ++octant) {
+        const std::uint64_t base = r.region << 9 | octant << 6;
+        for (std::uint64_t bits = r.free[octant] & ~r.hit[octant]; bits != 0; bits &= bits - 1)
+          visit(cell_word::toKey(base | static_cast<unsigned>(std::countr_zero(bits))), false);
+        for (std::uint64_t bits = r.hit[octant]; bits != 0; bits &= bits - 1)
+          visit(cell_word::toKey(base | static_cast<unsigned>(std::countr_zero(bits))), true);
+      }
+    });
+  }
+
+  std::size_t regions() const { return index_.size(); }
+
+ private:
+  static constexpr std::size_t kChunk = 256;
+
+  RegionMasks& at(std::uint64_t region) {
+    if (RegionMasks* known = index_.find(region)) return *known;
+    if (chunks_.empty() || used_ == kChunk) {
+      chunks_.push_back(std::make_unique_for_overwrite<RegionMasks[]>(kChunk));
+      used_ = 0;
+    }
+    RegionMasks& fresh = chunks_.back()[used_++];
+    fresh = RegionMasks{region, {}, {}};
+    index_.insert(region, &fresh);
+    return fresh;
+  }
+
+  BlockIndex<RegionMasks> index_;
+  std::vector<std::unique_ptr<RegionMasks[]>> chunks_;
+  std::size_t used_ = 0;
+};
+
+}  // namespace rhmap

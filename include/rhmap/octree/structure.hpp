@@ -1,0 +1,168 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <vector>
+
+#include "rhmap/core/block_store.hpp"
+
+/// OctoMap's rules for the structure of the tree: when eight leaves become one, and how one becomes eight again.
+namespace rhmap::structure {
+
+/// All eight children exist, are leaves and are equal.
+template <class NODE>
+bool isCollapsible(const BlockStore<NODE>& store, NodeRef at) {
+  const NodeRef o = store.childOctetOf(at);
+  if (!o || o.block->mask[o.slot] != 0xff) return false;
+  const NODE* child = store.octet(o.block, o.slot).nodes;
+  for (int i = 1; i < 8; ++i)
+    if (!(child[i] == child[0])) return false;
+  return !store.anyHasChildren(o) && child[0] == child[0];  // NaN equals nothing
+}
+
+/// Gives a leaf eight children with its data; a no-op at depth 16.
+template <class NODE>
+void expand(BlockStore<NODE>& store, NodeRef at) {
+  if (at.depth() == kTreeDepth) return;
+  const NODE* from = store.node(at);
+  const NodeRef o = store.createChildren(at, 0xff);
+  NODE* child = store.octet(o.block, o.slot).nodes;
+  for (int i = 0; i < 8; ++i) child[i].copyData(*from);
+}
+
+/// Replaces eight equal leaves by their parent; false if it is not collapsible.
+template <class NODE>
+bool prune(BlockStore<NODE>& store, NodeRef at) {
+  if (!isCollapsible(store, at)) return false;
+  const NodeRef o = store.childOctetOf(at);
+  store.node(at)->copyData(*store.octet(o.block, o.slot).nodes);
+  store.removeNodes(o.block, o.slot, 0xff);
+  return true;
+}
+
+/// OctoMap's rule on the way up: eight equal leaves become their parent, else the parent is recomputed from its children.
+/// True if it was pruned.
+template <class NODE>
+bool summarise(BlockStore<NODE>& store, NodeRef at) {
+  if (prune(store, at)) return true;
+  store.node(at)->updateOccupancyChildren(store.children(at));
+  return false;
+}
+
+/// summarise() for a node and all its ancestors. Returns the highest one that was pruned, if any.
+template <class NODE>
+NodeRef summariseUpwards(BlockStore<NODE>& store, NodeRef at) {
+  NodeRef pruned;
+  for (; at; at = store.parent(at))
+    if (summarise(store, at)) pruned = at;
+  return pruned;
+}
+
+/// The child of a node on the way to `key`, existing or not; its octet must exist.
+template <class NODE>
+NodeRef childTowards(const BlockStore<NODE>& store, NodeRef at, const OcTreeKey& key) {
+  const NodeRef o = store.childOctetOf(at);
+  return {o.block, slotAbove(cellIndex(key, o.block->level), o.slot < kMiddleOctet ? 1 : o.slot < kTopOctet ? 0 : -1)};
+}
+
+/// Number of the child on the way to `key`.
+inline int childNumber(NodeRef at, const OcTreeKey& key) {
+  const unsigned bit = kTreeDepth - 1 - at.depth();
+  return (key[0] >> bit & 1) | (key[1] >> bit & 1) << 1 | (key[2] >> bit & 1) << 2;
+}
+
+/// Makes the way down to depth `depth` exist: a pruned leaf is expanded, a missing node is made with the default value.
+/// `fresh` tells whether the node returned is new and not a copy of a pruned leaf.
+template <class NODE>
+NodeRef reach(BlockStore<NODE>& store, const OcTreeKey& key, unsigned depth, bool& fresh) {
+  NodeRef at = store.deepest(key);
+  fresh = !at;
+  if (!at) at = store.createRoot();
+  while (at.depth() < depth) {
+    if (!fresh && !store.hasChildren(at)) {
+      expand(store, at);
+      at = childTowards(store, at, key);
+    } else {
+      at = store.createChild(at, childNumber(at, key));
+      fresh = true;
+    }
+  }
+  return at;
+}
+
+/// See OcTreeBaseImpl::deleteNode.
+template <class NODE>
+bool deleteNode(BlockStore<NODE>& store, const OcTreeKey& key, unsigned depth) {
+  if (store.empty()) return true;
+  NodeRef at = store.root();
+  while (at.depth() < depth) {
+    if (!store.hasChildren(at)) {
+      if (at == store.root()) return false;
+      expand(store, at);
+    }
+    at = childTowards(store, at, key);
+    if (!at.block->has(at.slot)) return false;
+  }
+  NodeRef above = store.parent(at);
+  store.removeSubtree(at);
+  while (above && !store.hasChildren(above)) {
+    if (above == store.root()) return true;  // OctoMap leaves a root without children behind
+    at = above;
+    above = store.parent(at);
+    store.remove(at);
+  }
+  store.node(above)->updateOccupancyChildren(store.children(above));
+  return false;
+}
+
+/// Blocks of one level. A list, because what is done to them may remove blocks of deeper levels.
+template <class NODE>
+std::vector<Block*> blocksOfLevel(const BlockStore<NODE>& store, int level) {
+  std::vector<Block*> blocks;
+  store.forEachBlock([&](Block& block) {
+    if (block.level == level) blocks.push_back(&block);
+  });
+  return blocks;
+}
+
+/// Calls `visit(NodeRef)` for all existing nodes at a depth, in no particular order. It may remove what is below a node.
+template <class NODE, class F>
+void forEachAtDepth(const BlockStore<NODE>& store, unsigned depth, F&& visit) {
+  const int level = static_cast<int>(depth + 1) / 3;
+  const int step = static_cast<int>(depth) - 3 * level;
+  const int first = slotAbove(0, step);
+  const int last = slotAbove(kCells - 1, step);
+  for (Block* block : blocksOfLevel(store, level))
+    for (int slot = first; slot <= last; ++slot)
+      if (block->has(slot)) visit(NodeRef{block, slot});
+}
+
+/// See OcTreeBaseImpl::prune.
+template <class NODE>
+void pruneLevels(BlockStore<NODE>& store) {
+  for (unsigned depth = kTreeDepth - 1; depth > 0; --depth) {
+    std::size_t pruned = 0;
+    forEachAtDepth(store, depth, [&](NodeRef at) { pruned += prune(store, at); });
+    if (pruned == 0) break;
+  }
+}
+
+/// Expands every leaf down to depth 16.
+template <class NODE>
+void expandAll(BlockStore<NODE>& store) {
+  for (unsigned depth = 0; depth < kTreeDepth; ++depth)
+    forEachAtDepth(store, depth, [&](NodeRef at) {
+      if (!store.hasChildren(at)) expand(store, at);
+    });
+}
+
+/// Recomputes every inner node from its children, bottom up.
+template <class NODE>
+void updateInner(BlockStore<NODE>& store) {
+  for (int depth = kTreeDepth - 1; depth >= 0; --depth)
+    forEachAtDepth(store, static_cast<unsigned>(depth), [&](NodeRef at) {
+      if (const Octet<NODE> children = store.children(at); children.mask != 0)
+        store.node(at)->updateOccupancyChildren(children);
+    });
+}
+
+}  // namespace rhmap::structure

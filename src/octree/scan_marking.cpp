@@ -1,0 +1,123 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "rhmap/octree/scan_marking.hpp"
+
+#include <omp.h>
+
+#include <cmath>
+#include <exception>
+#include <memory>
+#include <vector>
+
+#include "rhmap/octree/ray.hpp"
+#include "rhmap/octree/ray_walk.hpp"
+
+namespace rhmap {
+namespace {
+
+bool isFinite(const point3d& p) { return std::isfinite(p.x()) && std::isfinite(p.y()) && std::isfinite(p.z()); }
+
+/// Marks part of a scan: one thread's work.
+class Marker {
+ public:
+  Marker(const KeySpace& keys, const point3d& origin, const ScanMarkingConfig& config)
+      : keys_(keys), origin_(origin), config_(config), batch_(std::make_unique<RayBatch>()) {}
+
+  void add(const point3d& p) {
+    ++counts_.points;
+    if (!isFinite(p)) {
+      ++counts_.not_finite;
+      return;
+    }
+    const bool in_range = config_.max_range < 0.0 || distance(origin_, p) <= config_.max_range;
+    const point3d end = in_range ? p : cutAt(origin_, p, config_.max_range);
+    const bool crossed = config_.box == nullptr ? free(end) : freeInBox(end, *config_.box);
+    if (!crossed) ++counts_.outside;
+    OcTreeKey key;
+    if (in_range && (config_.box == nullptr || config_.box->contains(p)) && keys_.coordToKeyChecked(p, key))
+      masks_.markHit(key);
+  }
+
+  void finish() {
+    walkRays(*batch_, masks_);
+    batch_->clear();
+  }
+
+  ScanMasks& masks() { return masks_; }
+  const ScanCounts& counts() const { return counts_; }
+
+ private:
+  bool free(const point3d& end) {
+    RaySegment ray;
+    const RayStart start = startSegment(keys_, origin_, end, ray);
+    if (start == RayStart::kRay) {
+      batch_->add(ray);
+      if (batch_->full()) finish();
+    }
+    return start != RayStart::kOutside;
+  }
+
+  bool freeInBox(const point3d& end, const KeyBox& box) {
+    bool inside = true;
+    return forEachRayKey(keys_, origin_, end, [&](const OcTreeKey& key) {
+      inside = inside && box.contains(key);
+      if (inside) masks_.markFree(key);
+    });
+  }
+
+  const KeySpace& keys_;
+  const point3d& origin_;
+  const ScanMarkingConfig& config_;
+  std::unique_ptr<RayBatch> batch_;
+  ScanMasks masks_;
+  ScanCounts counts_;
+};
+
+}  // namespace
+
+ScanMasks markScan(const KeySpace& keys, const octomap::Pointcloud& scan, const point3d& origin,
+                   const ScanMarkingConfig& config, ScanCounts& counts) {
+  const auto parts = static_cast<std::size_t>(config.num_threads < 1 ? 1 : config.num_threads);
+  std::vector<Marker> markers;
+  markers.reserve(parts);
+  for (std::size_t i = 0; i < parts; ++i) markers.emplace_back(keys, origin, config);
+
+  std::exception_ptr error;
+#pragma omp parallel for num_threads(static_cast<int>(parts)) if (parts > 1)
+  for (std::size_t part = 0; part < parts; ++part) {
+    try {
+      for (std::size_t i = scan.size() * part / parts; i < scan.size() * (part + 1) / parts; ++i)
+        markers[part].add(scan[static_cast<unsigned>(i)]);
+      markers[part].finish();
+    } catch (...) {
+#pragma omp critical(rhmap_mark_scan)
+      error = std::current_exception();
+    }
+  }
+  if (error) std::rethrow_exception(error);
+
+  for (const Marker& marker : markers) {
+    counts.points += marker.counts().points;
+    counts.not_finite += marker.counts().not_finite;
+    counts.outside += marker.counts().outside;
+  }
+  for (std::size_t i = 1; i < parts; ++i) markers[0].masks().merge(markers[i].masks());
+  return std::move(markers[0].masks());
+}
+
+octomap::Pointcloud discretize(const KeySpace& keys, const octomap::Pointcloud& scan, ScanCounts& counts) {
+  octomap::Pointcloud centres;
+  centres.reserve(scan.size());
+  KeySet seen;
+  for (const point3d& p : scan) {
+    if (!isFinite(p)) {
+      ++counts.points;
+      ++counts.not_finite;
+      continue;
+    }
+    const OcTreeKey key(keys.coordToKey(p.x()), keys.coordToKey(p.y()), keys.coordToKey(p.z()));
+    if (seen.insert(key).second) centres.push_back(keys.keyToCoord(key));
+  }
+  return centres;
+}
+
+}  // namespace rhmap
