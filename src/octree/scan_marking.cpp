@@ -3,9 +3,11 @@
 
 #include <omp.h>
 
+#include <algorithm>
 #include <cmath>
 #include <exception>
 #include <memory>
+#include <utility>
 #include <vector>
 
 #include "rhmap/octree/ray.hpp"
@@ -16,11 +18,32 @@ namespace {
 
 bool isFinite(const point3d& p) { return std::isfinite(p.x()) && std::isfinite(p.y()) && std::isfinite(p.z()); }
 
+/// Masks for all cells that the rays of this scan can reach.
+ScanMasks masksFor(const KeySpace& keys, const octomap::Pointcloud& scan, const point3d& origin, double max_range) {
+  constexpr int kMargin = 8;  // cells: a ray may miss its end by a rounding, and leave the box by a cell
+  OcTreeKey min, max;
+  for (unsigned axis = 0; axis < 3; ++axis) {
+    double low = origin(axis);
+    double high = low;
+    for (const point3d& p : scan) {  // a NaN compares false
+      low = p(axis) < low ? double(p(axis)) : low;
+      high = p(axis) > high ? double(p(axis)) : high;
+    }
+    if (max_range >= 0) {
+      low = std::max(low, origin(axis) - max_range);
+      high = std::min(high, origin(axis) + max_range);
+    }
+    const double margin = kMargin * keys.resolution();
+    if (!keys.coordToKeyChecked(low - margin, min[axis]) || !keys.coordToKeyChecked(high + margin, max[axis])) return {};
+  }
+  return {min, max};
+}
+
 /// Marks part of a scan: one thread's work.
 class Marker {
  public:
-  Marker(const KeySpace& keys, const point3d& origin, const ScanMarkingConfig& config)
-      : keys_(keys), origin_(origin), config_(config), batch_(std::make_unique<RayBatch>()) {}
+  Marker(const KeySpace& keys, const point3d& origin, const ScanMarkingConfig& config, ScanMasks masks)
+      : keys_(keys), origin_(origin), config_(config), batch_(std::make_unique<RayBatch>()), masks_(std::move(masks)) {}
 
   void add(const point3d& p) {
     ++counts_.points;
@@ -79,7 +102,7 @@ ScanMasks markScan(const KeySpace& keys, const octomap::Pointcloud& scan, const 
   const auto parts = static_cast<std::size_t>(config.num_threads < 1 ? 1 : config.num_threads);
   std::vector<Marker> markers;
   markers.reserve(parts);
-  for (std::size_t i = 0; i < parts; ++i) markers.emplace_back(keys, origin, config);
+  for (std::size_t i = 0; i < parts; ++i) markers.emplace_back(keys, origin, config, masksFor(keys, scan, origin, config.max_range));
 
   std::exception_ptr error;
 #pragma omp parallel for num_threads(static_cast<int>(parts)) if (parts > 1)

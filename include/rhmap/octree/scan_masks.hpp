@@ -5,6 +5,7 @@
 #include <bit>
 #include <cstddef>
 #include <cstdint>
+#include <cstdlib>
 #include <memory>
 #include <vector>
 
@@ -63,7 +64,18 @@ struct RegionMasks {
 /// is an OR, so neither order nor repetition nor the number of threads matters.
 class ScanMasks {
  public:
+  /// For cells anywhere: regions are found by hashing.
   ScanMasks() = default;
+  /// For cells between two keys, inclusive along each axis, and no others: regions are found through a table over that
+  /// box, as long as it has a sane size.
+  ScanMasks(const OcTreeKey& min, const OcTreeKey& max) : first_(cell_word::fromKey(min) >> 9) {
+    const auto bits = [&](unsigned i) { return std::bit_width(static_cast<unsigned>((max[i] >> 3) - (min[i] >> 3))); };
+    y_shift_ = bits(0);
+    z_shift_ = y_shift_ + bits(1);
+    const int table_bits = z_shift_ + bits(2);
+    if (table_bits <= kLargestTableBits)
+      table_.reset(static_cast<RegionMasks**>(std::calloc(std::size_t{1} << table_bits, sizeof(RegionMasks*))));
+  }
   ScanMasks(ScanMasks&&) = default;
   ScanMasks& operator=(ScanMasks&&) = default;
 
@@ -112,23 +124,41 @@ class ScanMasks {
     });
   }
 
-  std::size_t regions() const { return index_.size(); }
-
  private:
   static constexpr std::size_t kChunk = 256;
 
+  static constexpr int kLargestTableBits = 22;
+
   RegionMasks& at(std::uint64_t region) {
-    if (RegionMasks* known = index_.find(region)) return *known;
+    if (table_ == nullptr) {
+      RegionMasks* known = index_.find(region);
+      if (known == nullptr) index_.insert(region, known = &create(region));
+      return *known;
+    }
+    const std::uint64_t offset = region - first_;  // no axis borrows from the next: none is below the box
+    RegionMasks*& known = table_[(offset & 0x1fff) | (offset >> 13 & 0x1fff) << y_shift_ | offset >> 26 << z_shift_];
+    if (known == nullptr) known = &create(region);
+    return *known;
+  }
+
+  RegionMasks& create(std::uint64_t region) {
     if (chunks_.empty() || used_ == kChunk) {
       chunks_.push_back(std::make_unique_for_overwrite<RegionMasks[]>(kChunk));
       used_ = 0;
     }
     RegionMasks& fresh = chunks_.back()[used_++];
     fresh = RegionMasks{region, {}, {}};
-    index_.insert(region, &fresh);
     return fresh;
   }
 
+  struct Free {
+    void operator()(RegionMasks** p) const { std::free(p); }
+  };
+
+  std::uint64_t first_ = 0;  // region at the table's start
+  int y_shift_ = 0;
+  int z_shift_ = 0;
+  std::unique_ptr<RegionMasks*[], Free> table_;  // zeroed by calloc: pages that no ray reaches are never touched
   BlockIndex<RegionMasks> index_;
   std::vector<std::unique_ptr<RegionMasks[]>> chunks_;
   std::size_t used_ = 0;
