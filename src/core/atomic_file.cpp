@@ -5,23 +5,22 @@
 #include <fstream>
 #include <locale>
 #include <random>
-#include <stdexcept>
 #include <string>
 #include <system_error>
+
+#include "rhmap/core/failure.hpp"
 
 namespace rhmap {
 
 namespace {
 
-[[noreturn]] void fail(const std::filesystem::path& file, const std::string& reason) {
-  throw std::runtime_error(file.string() + ": " + reason);
-}
-
 /// A file beside the target that goes away unless it took the target's place.
 class TemporaryFile {
  public:
   explicit TemporaryFile(const std::filesystem::path& target) : path_(target) {
-    path_ += "." + std::to_string(std::random_device()()) + ".tmp";  // two writers never share one
+    path_ += '.';
+    path_ += std::to_string(std::random_device()());  // two writers never share one
+    path_ += ".tmp";
   }
   TemporaryFile(const TemporaryFile&) = delete;
   TemporaryFile& operator=(const TemporaryFile&) = delete;
@@ -35,7 +34,7 @@ class TemporaryFile {
   void moveTo(const std::filesystem::path& target) {
     std::error_code error;
     std::filesystem::rename(path_, target, error);
-    if (error) fail(target, "cannot be replaced: " + error.message());
+    if (error) failOnFile(target, "cannot be replaced: " + error.message());
     path_.clear();
   }
 
@@ -53,12 +52,12 @@ void writeFileWhole(const std::filesystem::path& file, const std::function<void(
   stream.imbue(std::locale::classic());
   errno = 0;
   stream.open(temporary.path(), std::ios::binary | std::ios::trunc);
-  if (!stream) fail(file, "cannot be created: " + lastError());
+  if (!stream) failOnFile(file, "cannot be created: " + lastError());
   write(stream);
   if (stream) stream.flush();
-  if (!stream) fail(file, "cannot be written: " + lastError());
+  if (!stream) failOnFile(file, "cannot be written: " + lastError());
   stream.close();
-  if (!stream) fail(file, "cannot be closed: " + lastError());
+  if (!stream) failOnFile(file, "cannot be closed: " + lastError());
   temporary.moveTo(file);
 }
 

@@ -11,6 +11,7 @@
 #include <stdexcept>
 #include <string_view>
 
+#include "rhmap/core/failure.hpp"
 #include "rhmap/octree/octree.hpp"
 
 namespace rhmap {
@@ -140,7 +141,7 @@ std::unique_ptr<AbstractOcTree> readMapFile(const std::filesystem::path& file) t
   readBinaryMap(s, *tree);
   return tree;
 } catch (const std::runtime_error& reason) {
-  throw std::runtime_error(file.string() + ": " + reason.what());
+  failOnFile(file, reason.what());
 }
 
 }  // namespace rhmap

@@ -38,6 +38,8 @@ class BlockStore {
   /// Number of existing nodes, inner ones and the root included.
   std::size_t size() const { return size_; }
   bool empty() const { return root_ == nullptr; }
+  /// Goes up whenever nodes are made or removed.
+  std::uint64_t version() const { return version_; }
 
   // --- finding ------------------------------------------------------------------------------------------------------
 
@@ -156,6 +158,7 @@ class BlockStore {
     for (unsigned rest = bits; rest != 0; rest &= rest - 1) new (nodes + std::countr_zero(rest)) NODE();
     block->mask[number] = static_cast<std::uint8_t>(block->mask[number] | bits);
     size_ += static_cast<std::size_t>(std::popcount(bits));
+    ++version_;
     return nodes;
   }
 
@@ -177,6 +180,7 @@ class BlockStore {
     for (unsigned rest = bits; rest != 0; rest &= rest - 1) nodes[std::countr_zero(rest)].~NODE();
     block->mask[number] = static_cast<std::uint8_t>(block->mask[number] & ~bits);
     size_ -= static_cast<std::size_t>(std::popcount(bits));
+    ++version_;
     if (block->mask[number] != 0) return;
     nodes_.release(block->octet[number]);
     const bool was_last = number == kTopOctet || (block == root_ && number == kRootSlot >> 3);
@@ -209,6 +213,7 @@ class BlockStore {
     nodes_.clear();
     root_ = nullptr;
     size_ = 0;
+    ++version_;
   }
 
   /// Makes this empty store a copy of another.
@@ -269,6 +274,7 @@ class BlockStore {
   OctetPool<NODE> nodes_;
   Block* root_ = nullptr;
   std::size_t size_ = 0;
+  std::uint64_t version_ = 0;
 };
 
 }  // namespace rhmap

@@ -29,7 +29,6 @@ void OccupancyOcTreeBase<NODE>::insertPointCloud(const Pointcloud& scan, const p
     marks.forEachCell([&](const OcTreeKey& key, bool occupied) { updateNode(key, occupied, lazy_eval); });
     return;
   }
-  this->bounds_.reset();
   ScanApplier<NODE> applier(*this->store_, sensorModel(), lazy_eval);
   marks.forEachRegion([&](const RegionMasks& region) { applier.apply(region); });
 }
@@ -94,8 +93,7 @@ NODE* OccupancyOcTreeBase<NODE>::changeCell(NodeRef leaf, const OcTreeKey& key, 
   bool created = false;
   if (!leaf) {
     leaf = structure::reach(*this->store_, key, kTreeDepth, created);
-    this->bounds_.reset();
-  }
+    }
   NODE* node = this->store_->node(leaf);
   if (use_change_detection_) {
     const bool occupied_before = this->isNodeOccupied(node);
@@ -107,7 +105,6 @@ NODE* OccupancyOcTreeBase<NODE>::changeCell(NodeRef leaf, const OcTreeKey& key, 
   if (lazy_eval) return node;
   const NodeRef pruned = structure::summariseUpwards(*this->store_, this->store_->parent(leaf));
   if (!pruned) return node;
-  this->bounds_.reset();
   return this->store_->node(pruned);
 }
 
@@ -202,7 +199,6 @@ std::istream& OccupancyOcTreeBase<NODE>::readBinaryData(std::istream& s) {
     s.setstate(std::ios::failbit);
     return s;
   }
-  this->bounds_.reset();
   try {
     const NodeRef root = this->store_->createRoot();
     this->store_->node(root)->setLogOdds(this->clamping_thres_max);  // and so it stays: OctoMap never recomputes it

@@ -2,8 +2,10 @@
 #pragma once
 
 #include <array>
+#include <cstdint>
 #include <limits>
 #include <memory>
+#include <optional>
 #include <string>
 #include <utility>
 #include <vector>
@@ -79,13 +81,11 @@ class OcTreeBaseImpl : public INTERFACE {
   NODE* createNodeChild(NODE* node, unsigned child) {
     const NodeRef at = store_->locate(node);
     if (!at) return nullptr;
-    bounds_.reset();
     return store_->node(store_->createChild(at, static_cast<int>(child)));
   }
   /// Removes a child and all below it.
   void deleteNodeChild(NODE* node, unsigned child) {
     const NodeRef octet = store_->childOctetOf(store_->locate(node));
-    bounds_.reset();
     store_->removeSubtree({octet.block, octet.slot * 8 + static_cast<int>(child)});
   }
 
@@ -96,12 +96,12 @@ class OcTreeBaseImpl : public INTERFACE {
   }
   /// Gives a leaf eight children with its data. Does nothing at depth 16.
   void expandNode(NODE* node) {
-    if (const NodeRef at = store_->locate(node)) expandAt(at);
+    if (const NodeRef at = store_->locate(node)) structure::expand(*store_, at);
   }
   /// Replaces eight equal leaf children by this node; false if it is not collapsible.
   bool pruneNode(NODE* node) {
     const NodeRef at = store_->locate(node);
-    return at && pruneAt(at);
+    return at && structure::prune(*store_, at);
   }
 
   // --- search and deletion ------------------------------------------------------------------------------------------
@@ -122,7 +122,6 @@ class OcTreeBaseImpl : public INTERFACE {
   /// Deletes the node at `depth` (0: 16) with all below it, expanding pruned leaves on the way; ancestors that lose their
   /// last child go with it, except the root. True if the root lost its last child or there was none: OctoMap's answer.
   bool deleteNode(const OcTreeKey& key, unsigned depth = 0) {
-    bounds_.reset();
     return structure::deleteNode(*store_, key, depth == 0 ? kTreeDepth : depth);
   }
   bool deleteNode(const point3d& value, unsigned depth = 0) {
@@ -134,20 +133,11 @@ class OcTreeBaseImpl : public INTERFACE {
     return keys_.coordToKeyChecked(x, y, z, key) && deleteNode(key, depth);
   }
 
-  void clear() override {
-    store_->clear();
-    bounds_.reset();
-  }
+  void clear() override { store_->clear(); }
   /// Collapses level by level from the cells up, and stops at the first level where nothing collapsed, as OctoMap does.
-  void prune() override {
-    structure::pruneLevels(*store_);
-    bounds_.reset();
-  }
+  void prune() override { structure::pruneLevels(*store_); }
   /// Expands every leaf down to depth 16.
-  void expand() override {
-    structure::expandAll(*store_);
-    bounds_.reset();
-  }
+  void expand() override { structure::expandAll(*store_); }
 
   // --- statistics -----------------------------------------------------------------------------------------------------
 
@@ -266,6 +256,7 @@ class OcTreeBaseImpl : public INTERFACE {
  protected:
   struct Bounds {
     std::array<double, 3> min{}, max{};
+    std::uint64_t version;  ///< of the store they were computed for
     std::array<double, 3> size() const { return {max[0] - min[0], max[1] - min[1], max[2] - min[2]}; }
   };
 
@@ -276,19 +267,9 @@ class OcTreeBaseImpl : public INTERFACE {
     return at ? store_->children(at) : Octet<NODE>{};
   }
 
-  void expandAt(NodeRef at) {
-    structure::expand(*store_, at);
-    bounds_.reset();
-  }
-  bool pruneAt(NodeRef at) {
-    const bool pruned = structure::prune(*store_, at);
-    if (pruned) bounds_.reset();
-    return pruned;
-  }
-
   std::unique_ptr<BlockStore<NODE>> store_ = std::make_unique<BlockStore<NODE>>();
   KeySpace keys_;
-  std::unique_ptr<Bounds> bounds_;  // null: not known
+  std::optional<Bounds> bounds_;  // the last that the non-const getters computed
 
  private:
   static void spread(const std::array<double, 3>& v, double& x, double& y, double& z) {
@@ -296,12 +277,17 @@ class OcTreeBaseImpl : public INTERFACE {
     y = v[1];
     z = v[2];
   }
+  bool boundsAreKnown() const { return bounds_ && bounds_->version == store_->version(); }
   const Bounds& cachedBounds() {
-    if (!bounds_) bounds_ = std::make_unique<Bounds>(computeBounds());
+    if (!boundsAreKnown()) bounds_ = computeBounds([](double centre, double size) { return centre - size / 2.0 + size; });
     return *bounds_;
   }
-  Bounds knownBounds() const { return bounds_ ? *bounds_ : computeBounds(); }
-  Bounds computeBounds() const;
+  /// OctoMap rounds the upper end in another way where it has nothing cached.
+  Bounds knownBounds() const {
+    return boundsAreKnown() ? *bounds_ : computeBounds([](double centre, double size) { return centre + size / 2.0; });
+  }
+  template <class Upper>
+  Bounds computeBounds(Upper&& upper) const;
 };
 
 }  // namespace rhmap

@@ -10,9 +10,11 @@
 
 namespace rhmap {
 
+/// `upper`: the upper end [m] of a leaf along an axis from its centre and its size.
 template <class NODE, class INTERFACE>
-auto OcTreeBaseImpl<NODE, INTERFACE>::computeBounds() const -> Bounds {
-  Bounds bounds;
+template <class Upper>
+auto OcTreeBaseImpl<NODE, INTERFACE>::computeBounds(Upper&& upper) const -> Bounds {
+  Bounds bounds{.version = store_->version()};
   if (store_->empty()) return bounds;
   bounds.min.fill(std::numeric_limits<double>::max());
   bounds.max.fill(-std::numeric_limits<double>::max());
@@ -20,9 +22,8 @@ auto OcTreeBaseImpl<NODE, INTERFACE>::computeBounds() const -> Bounds {
     const double size = it.getSize();
     const std::array<double, 3> centre{it.getX(), it.getY(), it.getZ()};
     for (std::size_t i = 0; i < 3; ++i) {
-      const double low = centre[i] - size / 2.0;
-      bounds.min[i] = std::min(bounds.min[i], low);
-      bounds.max[i] = std::max(bounds.max[i], low + size);
+      bounds.min[i] = std::min(bounds.min[i], centre[i] - size / 2.0);
+      bounds.max[i] = std::max(bounds.max[i], upper(centre[i], size));
     }
   }
   return bounds;
@@ -41,7 +42,6 @@ std::istream& OcTreeBaseImpl<NODE, INTERFACE>::readData(std::istream& s) {
     s.setstate(std::ios::failbit);
     return s;
   }
-  bounds_.reset();
   try {
     codec::readValues(*store_, store_->createRoot(), s);
   } catch (const std::runtime_error&) {

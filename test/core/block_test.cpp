@@ -1,0 +1,81 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "rhmap/core/block.hpp"
+
+#include <gtest/gtest.h>
+
+#include <random>
+#include <set>
+
+namespace rhmap {
+namespace {
+
+/// OctoMap's own child numbers down to a depth, as one number.
+unsigned pathTo(const OcTreeKey& key, unsigned from_depth, unsigned to_depth) {
+  unsigned path = 0;
+  for (unsigned d = from_depth; d < to_depth; ++d)
+    path = path << 3 | octomap::computeChildIdx(key, static_cast<int>(kTreeDepth - 1 - d));
+  return path;
+}
+
+TEST(Block, CellsAreInTheOrderOfOctomapsChildNumbers) {
+  std::mt19937 random(1);
+  for (int i = 0; i < 10000; ++i) {
+    const OcTreeKey key(static_cast<key_type>(random()), static_cast<key_type>(random()),
+                        static_cast<key_type>(random()));
+    for (int level = 1; level <= kRegionLevel; ++level) {
+      const auto depth = static_cast<unsigned>(3 * level + 1);
+      ASSERT_EQ(static_cast<unsigned>(cellIndex(key, level)), pathTo(key, depth - 3, depth)) << "level " << level;
+    }
+    ASSERT_EQ(static_cast<unsigned>(cellIndex(key, 0)), pathTo(key, 0, 1));
+  }
+}
+
+TEST(Block, ParentAndChildOctetsAreInverse) {
+  std::set<int> parents;
+  for (int octet = 0; octet < kTopOctet; ++octet) {
+    EXPECT_EQ(childOctet(parentSlot(octet)), octet);
+    parents.insert(parentSlot(octet));
+  }
+  EXPECT_EQ(parents.size(), 72U);
+  EXPECT_EQ(*parents.begin(), kMiddleSlot);
+  EXPECT_EQ(*parents.rbegin(), kSlots - 1);
+}
+
+TEST(Block, ASlotsCornerIsTheSmallestKeyThatLeadsToIt) {
+  std::mt19937 random(2);
+  for (int level = 0; level <= kRegionLevel; ++level) {
+    for (int i = 0; i < 2000; ++i) {
+      const OcTreeKey key(static_cast<key_type>(random()), static_cast<key_type>(random()),
+                          static_cast<key_type>(random()));
+      Block block{};
+      block.level = static_cast<std::uint8_t>(level);
+      block.corner = level == 0 ? OcTreeKey(0, 0, 0) : lowerCorner(key, static_cast<unsigned>(3 * level - 2));
+      for (int step = level == 0 ? 0 : -1; step <= 1; ++step) {
+        const int slot = slotAbove(cellIndex(key, level), step);
+        ASSERT_EQ(block.depth(slot), static_cast<unsigned>(3 * level + step));
+        ASSERT_EQ(block.cornerOf(slot), octomap::computeIndexKey(static_cast<key_type>(kTreeDepth - block.depth(slot)), key));
+      }
+    }
+  }
+}
+
+TEST(Block, BlockKeysAreDistinctBetweenBlocksAndEqualWithin) {
+  std::mt19937 random(3);
+  for (int i = 0; i < 100000; ++i) {
+    const OcTreeKey a(static_cast<key_type>(random()), static_cast<key_type>(random()), static_cast<key_type>(random()));
+    OcTreeKey b = a;
+    b[random() % 3] ^= static_cast<key_type>(1U << random() % 16);
+    for (int level = 0; level <= kRegionLevel; ++level) {
+      const int shift = cellShift(level) + 3;
+      bool same = true;
+      for (unsigned axis = 0; axis < 3; ++axis) same = same && a[axis] >> shift == b[axis] >> shift;
+      ASSERT_EQ(blockKey(a, level) == blockKey(b, level), same);
+      if (level > 0) {
+        ASSERT_NE(blockKey(a, level), blockKey(a, level - 1));
+      }
+    }
+  }
+}
+
+}  // namespace
+}  // namespace rhmap
