@@ -77,8 +77,10 @@ std::optional<MapFormat> readMagicLine(std::istream& s) {
 
 MapHeader readMapHeader(std::istream& s) {
   MapHeader header;
-  std::string token;
-  while (s >> token) {
+  const auto number = [&s](auto& field, const char* name) {
+    if (!(s >> field)) throw std::runtime_error(std::string("the header's ") + name + " is not a number");
+  };
+  for (std::string token; s >> token;) {
     if (token == "data") {
       skipLine(s);
       if (header.id == "1") header.id = "OcTree";  // an old alias
@@ -88,9 +90,9 @@ MapHeader readMapHeader(std::istream& s) {
     if (token == "id") {
       s >> header.id;
     } else if (token == "res") {
-      s >> header.resolution;
+      number(header.resolution, "resolution");
     } else if (token == "size") {
-      s >> header.size;
+      number(header.size, "size");
     } else {
       skipLine(s);  // a comment, or a field from the future
     }
@@ -114,8 +116,9 @@ void readBinaryMap(std::istream& s, AbstractOccupancyOcTree& tree) {
   const std::string found = std::to_string(tree.size());
   tree.clear();
   tree.setResolution(resolution);
-  throw std::runtime_error(complete ? "the header promises " + std::to_string(header.size) + " nodes, the data have " + found
-                                    : std::string("the data end or break in the middle of the tree"));
+  throw std::runtime_error(complete
+                               ? "the header promises " + std::to_string(header.size) + " nodes, the data have " + found
+                               : std::string("the data end or break in the middle of the tree"));
 }
 
 std::unique_ptr<AbstractOcTree> readFullMap(std::istream& s) {

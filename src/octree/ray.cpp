@@ -7,8 +7,8 @@
 namespace rhmap {
 namespace {
 
-/// Step directions and border distances from a point in cell `ray.key`. `half_step` turns half a cell into the type that
-/// OctoMap keeps it in: float in computeRayKeys, double in castRay.
+/// Step directions and border distances from a point in cell `ray.key`. `half_step` turns half a cell into the type
+/// that OctoMap keeps it in: float in computeRayKeys, double in castRay.
 template <class HALF>
 void startAxes(const KeySpace& keys, const point3d& origin, const point3d& direction, Ray& ray) {
   for (unsigned i = 0; i < 3; ++i) {

@@ -34,7 +34,8 @@ ScanMasks masksFor(const KeySpace& keys, const octomap::Pointcloud& scan, const 
       high = std::min(high, origin(axis) + max_range);
     }
     const double margin = kMargin * keys.resolution();
-    if (!keys.coordToKeyChecked(low - margin, min[axis]) || !keys.coordToKeyChecked(high + margin, max[axis])) return {};
+    if (!keys.coordToKeyChecked(low - margin, min[axis]) || !keys.coordToKeyChecked(high + margin, max[axis]))
+      return {};
   }
   return {min, max};
 }
@@ -102,10 +103,11 @@ ScanMasks markScan(const KeySpace& keys, const octomap::Pointcloud& scan, const 
   const auto parts = static_cast<std::size_t>(config.num_threads < 1 ? 1 : config.num_threads);
   std::vector<Marker> markers;
   markers.reserve(parts);
-  for (std::size_t i = 0; i < parts; ++i) markers.emplace_back(keys, origin, config, masksFor(keys, scan, origin, config.max_range));
+  for (std::size_t i = 0; i < parts; ++i)
+    markers.emplace_back(keys, origin, config, masksFor(keys, scan, origin, config.max_range));
 
   std::exception_ptr error;
-#pragma omp parallel for num_threads(static_cast<int>(parts)) if (parts > 1)
+#pragma omp parallel for num_threads(static_cast <int>(parts)) if (parts > 1)
   for (std::size_t part = 0; part < parts; ++part) {
     try {
       for (std::size_t i = scan.size() * part / parts; i < scan.size() * (part + 1) / parts; ++i)

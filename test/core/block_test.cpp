@@ -53,7 +53,8 @@ TEST(Block, ASlotsCornerIsTheSmallestKeyThatLeadsToIt) {
       for (int step = level == 0 ? 0 : -1; step <= 1; ++step) {
         const int slot = slotAbove(cellIndex(key, level), step);
         ASSERT_EQ(block.depth(slot), static_cast<unsigned>(3 * level + step));
-        ASSERT_EQ(block.cornerOf(slot), octomap::computeIndexKey(static_cast<key_type>(kTreeDepth - block.depth(slot)), key));
+        ASSERT_EQ(block.cornerOf(slot),
+                  octomap::computeIndexKey(static_cast<key_type>(kTreeDepth - block.depth(slot)), key));
       }
     }
   }
@@ -62,9 +63,11 @@ TEST(Block, ASlotsCornerIsTheSmallestKeyThatLeadsToIt) {
 TEST(Block, BlockKeysAreDistinctBetweenBlocksAndEqualWithin) {
   std::mt19937 random(3);
   for (int i = 0; i < 100000; ++i) {
-    const OcTreeKey a(static_cast<key_type>(random()), static_cast<key_type>(random()), static_cast<key_type>(random()));
+    const OcTreeKey a(static_cast<key_type>(random()), static_cast<key_type>(random()),
+                      static_cast<key_type>(random()));
     OcTreeKey b = a;
-    b[random() % 3] ^= static_cast<key_type>(1U << random() % 16);
+    const auto axis = static_cast<unsigned>(random() % 3);
+    b[axis] ^= static_cast<key_type>(1U << random() % 16);
     for (int level = 0; level <= kRegionLevel; ++level) {
       const int shift = cellShift(level) + 3;
       bool same = true;

@@ -25,7 +25,8 @@ TEST(Layers, LookOnlyDown) {
   std::size_t includes = 0;
   for (const auto* folder : {"include/rhmap", "src"}) {
     for (const auto& entry : fs::recursive_directory_iterator(fs::path(RHMAP_SOURCE_DIR) / folder)) {
-      if (!entry.is_regular_file() || (entry.path().extension() != ".hpp" && entry.path().extension() != ".cpp")) continue;
+      if (!entry.is_regular_file() || (entry.path().extension() != ".hpp" && entry.path().extension() != ".cpp"))
+        continue;
       const std::string layer = fs::relative(entry.path(), fs::path(RHMAP_SOURCE_DIR) / folder).begin()->string();
       ASSERT_TRUE(kMayInclude.count(layer)) << entry.path() << ": a layer that this test does not know";
       std::ifstream file(entry.path());

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Files that stock OctoMap 1.10.0 wrote (data/golden). They change only if OctoMap's formats do: never regenerate them from
-// rhmap.
+// Files that stock OctoMap 1.10.0 wrote (data/golden). They change only if OctoMap's formats do: never regenerate them
+// from rhmap.
 #include <gtest/gtest.h>
 
 #include <fstream>

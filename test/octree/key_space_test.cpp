@@ -21,10 +21,14 @@ class KeySpaceAt : public testing::TestWithParam<double> {
   double coordinate() {
     const double extent = 32768 * GetParam();
     switch (random_() % 4) {
-      case 0: return std::uniform_real_distribution(-1.1 * extent, 1.1 * extent)(random_);
-      case 1: return std::uniform_real_distribution(-10., 10.)(random_);
-      case 2: return double(int(random_() % 2000) - 1000) * GetParam();         // on borders of cells
-      default: return (double(int(random_() % 70000) - 35000) + 0.5) * GetParam();  // centres
+      case 0:
+        return std::uniform_real_distribution(-1.1 * extent, 1.1 * extent)(random_);
+      case 1:
+        return std::uniform_real_distribution(-10., 10.)(random_);
+      case 2:
+        return double(int(random_() % 2000) - 1000) * GetParam();  // on borders of cells
+      default:
+        return (double(int(random_() % 70000) - 35000) + 0.5) * GetParam();  // centres
     }
   }
 };

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-// Stock OctoMap as the oracle: its own templates, made quiet, with OctoMap 1.10's answers where the installed 1.9.7 gives
-// others (the box limit of insertPointCloud, issue OctoMap/octomap#358).
+// Stock OctoMap as the oracle: its own templates, made quiet, with OctoMap 1.10's answers where the installed 1.9.7
+// gives others (the box limit of insertPointCloud, issue OctoMap/octomap#358).
 #include <octomap/octomap_types.h>
 
 #undef OCTOMAP_WARNING_STR
@@ -24,8 +24,8 @@
 
 namespace rhmap::test {
 
-/// OctoMap's node. Frees its emptied child array, which OctoMap's deleteNode leaves behind: Debian's library asserts that
-/// there is none.
+/// OctoMap's node. Frees its emptied child array, which OctoMap's deleteNode leaves behind: Debian's library asserts
+/// that there is none.
 class OracleNode : public octomap::OcTreeNode {
  public:
   OracleNode() = default;

@@ -58,7 +58,11 @@ std::map<std::vector<int>, bool> changedKeys(const Tree& tree) {
 
 class RandomParity : public testing::TestWithParam<unsigned> {
  protected:
-  explicit RandomParity() : random_(GetParam()), resolution_(GetParam() % 3 == 0 ? 0.05 : GetParam() % 3 == 1 ? 0.1 : 0.37) {
+  explicit RandomParity()
+      : random_(GetParam()),
+        resolution_(GetParam() % 3 == 0   ? 0.05
+                    : GetParam() % 3 == 1 ? 0.1
+                                          : 0.37) {
     ours_ = std::make_unique<OcTree>(resolution_);
     theirs_ = std::make_unique<OctomapOracle>(resolution_);
     // Where the cells are: around the origin of the key space, at its corners, or anywhere near one point.
@@ -142,7 +146,8 @@ void RandomParity::insert() {
       octomap::Pointcloud local = scan;
       local.transform(pose.inv());
       const octomap::ScanNode node(new octomap::Pointcloud(local), pose, 0);
-      return both("insertPointCloud(ScanNode)", [&](auto& t) { t.insertPointCloud(node, max_range, lazy, discretize); });
+      return both("insertPointCloud(ScanNode)",
+                  [&](auto& t) { t.insertPointCloud(node, max_range, lazy, discretize); });
     }
     case 3: {
       octomap::KeySet free[2], occupied[2];
@@ -171,14 +176,22 @@ void RandomParity::parameters() {
   const bool on = below(2) == 0;
   const point3d a = point(), b = point();
   switch (below(9)) {
-    case 0: return both("setProbHit", [&](auto& t) { t.setProbHit(p); });
-    case 1: return both("setProbMiss", [&](auto& t) { t.setProbMiss(1 - p); });
-    case 2: return both("setClampingThresMin", [&](auto& t) { t.setClampingThresMin((1 - p) / 2); });
-    case 3: return both("setClampingThresMax", [&](auto& t) { t.setClampingThresMax(p); });
-    case 4: return both("setOccupancyThres", [&](auto& t) { t.setOccupancyThres(on ? 0.5 : p); });
-    case 5: return both("enableChangeDetection", [&](auto& t) { t.enableChangeDetection(on); });
-    case 6: return both("resetChangeDetection", [&](auto& t) { t.resetChangeDetection(); });
-    case 7: return both("useBBXLimit", [&](auto& t) { t.useBBXLimit(on); });
+    case 0:
+      return both("setProbHit", [&](auto& t) { t.setProbHit(p); });
+    case 1:
+      return both("setProbMiss", [&](auto& t) { t.setProbMiss(1 - p); });
+    case 2:
+      return both("setClampingThresMin", [&](auto& t) { t.setClampingThresMin((1 - p) / 2); });
+    case 3:
+      return both("setClampingThresMax", [&](auto& t) { t.setClampingThresMax(p); });
+    case 4:
+      return both("setOccupancyThres", [&](auto& t) { t.setOccupancyThres(on ? 0.5 : p); });
+    case 5:
+      return both("enableChangeDetection", [&](auto& t) { t.enableChangeDetection(on); });
+    case 6:
+      return both("resetChangeDetection", [&](auto& t) { t.resetChangeDetection(); });
+    case 7:
+      return both("useBBXLimit", [&](auto& t) { t.useBBXLimit(on); });
     default:
       return both("setBBX", [&](auto& t) {
         t.setBBXMin(point3d(std::min(a.x(), b.x()), std::min(a.y(), b.y()), std::min(a.z(), b.z())));
@@ -193,26 +206,32 @@ void RandomParity::structure() {
   const auto child = static_cast<unsigned>(below(8));
   const auto value = static_cast<float>(real(-3, 3));
   switch (below(10)) {
-    case 0: return both("prune", [](auto& t) { t.prune(); });
-    case 1: return both("updateInnerOccupancy", [](auto& t) { t.updateInnerOccupancy(); });
-    case 2: return both("pruneNode", [&](auto& t) {
+    case 0:
+      return both("prune", [](auto& t) { t.prune(); });
+    case 1:
+      return both("updateInnerOccupancy", [](auto& t) { t.updateInnerOccupancy(); });
+    case 2:
+      return both("pruneNode", [&](auto& t) {
         auto* node = t.search(k, depth);
         return node != nullptr && t.pruneNode(node);
       });
-    case 3: return both("expandNode", [&](auto& t) {
+    case 3:
+      return both("expandNode", [&](auto& t) {
         auto* node = t.search(k, depth);
         // Never below depth 16, which OctoMap does not check.
         if (node == nullptr || t.nodeHasChildren(node) || t.search(k, 15) != t.search(k, 16)) return false;
         t.expandNode(node);
         return true;
       });
-    case 4: return both("createNodeChild", [&](auto& t) {
+    case 4:
+      return both("createNodeChild", [&](auto& t) {
         auto* node = t.search(k, std::min(depth, 15U));
         if (node == nullptr || !t.nodeHasChildren(node) || t.nodeChildExists(node, child)) return false;
         t.createNodeChild(node, child)->setLogOdds(value);
         return true;
       });
-    case 5: return both("deleteNodeChild", [&](auto& t) {
+    case 5:
+      return both("deleteNodeChild", [&](auto& t) {
         auto* node = t.search(k, std::min(depth, 15U));
         if (node == nullptr || !t.nodeChildExists(node, child)) return false;
         if (t.nodeHasChildren(t.getNodeChild(node, child))) return false;  // OctoMap would leak what is below
@@ -222,11 +241,13 @@ void RandomParity::structure() {
         t.deleteNodeChild(node, child);
         return true;
       });
-    case 6: return both("setLogOdds by pointer", [&](auto& t) {
+    case 6:
+      return both("setLogOdds by pointer", [&](auto& t) {
         auto* node = t.search(k, depth);
         if (node != nullptr) node->setLogOdds(value);
       });
-    case 7: return both("isNodeCollapsible", [&](auto& t) {
+    case 7:
+      return both("isNodeCollapsible", [&](auto& t) {
         const auto* node = t.search(k, depth);
         return node != nullptr && t.isNodeCollapsible(node);
       });
@@ -308,7 +329,8 @@ void RandomParity::step() {
     for (unsigned i = 0; i < 3; ++i) corner[i] = static_cast<key_type>(corner[i] & ~(size - 1));
     both("fill a cube", [&](auto& t) {
       for (int i = 0; i < size * size * size; ++i) {
-        const OcTreeKey cell(static_cast<key_type>(corner[0] + i % size), static_cast<key_type>(corner[1] + i / size % size),
+        const OcTreeKey cell(static_cast<key_type>(corner[0] + i % size),
+                             static_cast<key_type>(corner[1] + i / size % size),
                              static_cast<key_type>(corner[2] + i / size / size));
         if (value > 2) {
           t.setNodeValue(cell, value, lazy);
@@ -332,7 +354,8 @@ void RandomParity::step() {
   if (what < 90) return structure();
   if (what < 93) return files();
   const auto depth = static_cast<unsigned>(below(17));
-  const point3d direction(static_cast<float>(below(5) - 2), static_cast<float>(real(-1, 1)), static_cast<float>(below(3) - 1));
+  const point3d direction(static_cast<float>(below(5) - 2), static_cast<float>(real(-1, 1)),
+                          static_cast<float>(below(3) - 1));
   const bool ignore = below(2) == 0;
   const double range = real(0.1, 50) * resolution_;
   both("search", [&](auto& t) { return t.search(k, depth); });
@@ -378,11 +401,13 @@ void RandomParity::expectSameEverywhere() {
     for (unsigned depth = 0; depth <= 16; ++depth)
       ASSERT_EQ(answer(*ours_, ours_->search(k, depth)), answer(*theirs_, theirs_->search(k, depth)));
     const point3d from = point();
-    const point3d direction(static_cast<float>(real(-1, 1)), static_cast<float>(real(-1, 1)), static_cast<float>(real(-1, 1)));
+    const point3d direction(static_cast<float>(real(-1, 1)), static_cast<float>(real(-1, 1)),
+                            static_cast<float>(real(-1, 1)));
     point3d end_a(1, 2, 3), end_b(1, 2, 3);
     const double range = i % 2 == 0 ? -1.0 : 30 * resolution_;
     const bool ignore = range > 0;
-    ASSERT_EQ(ours_->castRay(from, direction, end_a, ignore, range), theirs_->castRay(from, direction, end_b, ignore, range));
+    ASSERT_EQ(ours_->castRay(from, direction, end_a, ignore, range),
+              theirs_->castRay(from, direction, end_b, ignore, range));
     ASSERT_EQ(end_a, end_b);
   }
 }

@@ -80,7 +80,8 @@ TEST_P(RayWalkOn, MarksTheCellsOfOctomapsComputeUpdate) {
         for (const auto& key : occupied) expected[cell_word::fromKey(key)] = true;
         for (const int threads : {1, 3}) {
           ScanCounts counts;
-          const ScanMasks masks = markScan(keys, ends, origin, {.max_range = max_range, .num_threads = threads}, counts);
+          const ScanMasks masks =
+              markScan(keys, ends, origin, {.max_range = max_range, .num_threads = threads}, counts);
           ASSERT_TRUE(cellsOf(masks) == expected) << resolution << " m, range " << max_range << ", " << threads;
           ASSERT_EQ(counts.points, ends.size());
         }
@@ -102,7 +103,8 @@ TEST_P(RayWalkOn, WalksBatchesOfEverySizeToTheEnd) {
       RaySegment ray;
       if (startSegment(keys, origin, ends[200 + 13 * i], ray) != RayStart::kRay) continue;
       batch->add(ray);
-      forEachRayKey(keys, origin, ends[200 + 13 * i], [&](const OcTreeKey& k) { expected[cell_word::fromKey(k)] = false; });
+      forEachRayKey(keys, origin, ends[200 + 13 * i],
+                    [&](const OcTreeKey& k) { expected[cell_word::fromKey(k)] = false; });
     }
     ScanMasks masks;
     walkRays(*batch, masks);
@@ -112,7 +114,8 @@ TEST_P(RayWalkOn, WalksBatchesOfEverySizeToTheEnd) {
 
 std::vector<std::int64_t> targetsHere() {
   std::vector<std::int64_t> targets;
-  for (std::int64_t rest = hwy::SupportedTargets() & HWY_TARGETS; rest != 0; rest &= rest - 1) targets.push_back(rest & -rest);
+  for (std::int64_t rest = hwy::SupportedTargets() & HWY_TARGETS; rest != 0; rest &= rest - 1)
+    targets.push_back(rest & -rest);
   return targets;
 }
 INSTANTIATE_TEST_SUITE_P(Targets, RayWalkOn, testing::ValuesIn(targetsHere()),
@@ -147,7 +150,7 @@ TEST(ScanMarking, RaysAcrossTheWholeKeySpaceAreWalkedWithoutATable) {
   OcTree ours(0.1);
   test::OctomapOracle theirs(0.1);
   octomap::Pointcloud scan;
-  scan.push_back(3276.75F, 0.02F, 0.01F);   // the last cell
+  scan.push_back(3276.75F, 0.02F, 0.01F);    // the last cell
   scan.push_back(-3276.75F, -0.02F, 0.01F);  // the first
   scan.push_back(0.02F, 3276.75F, 0.01F);
   ours.insertPointCloud(scan, point3d(0, 0, 0));

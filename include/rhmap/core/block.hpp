@@ -11,8 +11,8 @@
 namespace rhmap {
 
 /// Slots of a block. A block is a flat piece of octree: 512 cells in Morton order (slots 0 ... 511), the 64 nodes one
-/// depth above them (512 ... 575) and the 8 nodes above those (576 ... 583). Eight siblings are an octet: octets 0 ... 63
-/// hold the cells, 64 ... 71 the middle nodes, 72 the top nodes. Hence the whole of the tree's structure:
+/// depth above them (512 ... 575) and the 8 nodes above those (576 ... 583). Eight siblings are an octet: octets 0 ...
+/// 63 hold the cells, 64 ... 71 the middle nodes, 72 the top nodes. Hence the whole of the tree's structure:
 ///   - the children of slot s >= 512 are octet s - 512 of the same block;
 ///   - the children of a cell are octet 72 of the block of the next level that lies under the cell.
 inline constexpr int kCells = 512;
@@ -44,11 +44,11 @@ using OctetRef = std::uint32_t;  ///< an octet's place in the OctetPool
 
 /// Which nodes exist and where they are kept. Six cache lines; the values live in the OctetPool.
 struct alignas(128) Block {
-  std::array<std::uint8_t, kOctets> mask;   ///< mask[o], bit i: node i of octet o exists
-  std::uint8_t level;                       ///< 0 (root) ... 5 (region)
-  OcTreeKey corner;                         ///< smallest key inside
-  std::array<OctetRef, kOctets> octet;      ///< valid where mask[o] != 0
-  Block* parent;                            ///< holds the cell above this block; null at level 0
+  std::array<std::uint8_t, kOctets> mask;  ///< mask[o], bit i: node i of octet o exists
+  std::uint8_t level;                      ///< 0 (root) ... 5 (region)
+  OcTreeKey corner;                        ///< smallest key inside
+  std::array<OctetRef, kOctets> octet;     ///< valid where mask[o] != 0
+  Block* parent;                           ///< holds the cell above this block; null at level 0
 
   bool has(int slot) const { return mask[static_cast<unsigned>(slot) >> 3] >> (slot & 7) & 1; }
 

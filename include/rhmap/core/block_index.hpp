@@ -83,7 +83,8 @@ class BlockIndex {
   }
 
   void grow() {
-    const std::vector<Entry> old = std::exchange(entries_, std::vector<Entry>(entries_.empty() ? 16 : entries_.size() * 2));
+    const std::vector<Entry> old =
+        std::exchange(entries_, std::vector<Entry>(entries_.empty() ? 16 : entries_.size() * 2));
     shift_ = 64;
     for (std::size_t n = entries_.size(); n > 1; n /= 2) --shift_;
     for (const Entry& e : old)

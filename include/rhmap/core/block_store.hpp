@@ -83,9 +83,12 @@ class BlockStore {
     return {};
   }
 
-  // --- around a node --------------------------------------------------------------------------------------------------
+  // --- around a node
+  // --------------------------------------------------------------------------------------------------
 
-  NODE* node(NodeRef r) const { return nodes_.nodes(r.block->octet[static_cast<unsigned>(r.slot) >> 3]) + (r.slot & 7); }
+  NODE* node(NodeRef r) const {
+    return nodes_.nodes(r.block->octet[static_cast<unsigned>(r.slot) >> 3]) + (r.slot & 7);
+  }
 
   /// Where a node of this store sits; empty for a depth-16 leaf (which has no children to ask for).
   static NodeRef locate(const NODE* node) { return OctetPool<NODE>::locate(node); }
@@ -130,7 +133,8 @@ class BlockStore {
     return false;
   }
 
-  // --- changing ---------------------------------------------------------------------------------------------------------
+  // --- changing
+  // ---------------------------------------------------------------------------------------------------------
 
   /// Makes the root of an empty tree.
   NodeRef createRoot() {

@@ -58,13 +58,12 @@ class OctetPool {
     const auto* first = reinterpret_cast<const NODE*>(reinterpret_cast<const char*>(slab) + kHeaderBytes);
     const auto index = static_cast<std::size_t>(node - first);
     const std::uintptr_t tagged = owner(slab, index / 8);
-    return {reinterpret_cast<Block*>(tagged & ~std::uintptr_t{127}),
-            static_cast<int>((tagged & 127) * 8 + index % 8)};
+    return {reinterpret_cast<Block*>(tagged & ~std::uintptr_t{127}), static_cast<int>((tagged & 127) * 8 + index % 8)};
   }
 
   /// Frees all slabs; the nodes must have been destroyed.
   void clear() {
-    for (Slab* slab : slabs_) ::operator delete(slab, std::align_val_t{kSlabBytes});
+    for (Slab* slab : slabs_) ::operator delete (slab, std::align_val_t{kSlabBytes});
     slabs_ = decltype(slabs_)();
     leaves_ = Kind{false};
     inner_ = Kind{true};
@@ -82,7 +81,8 @@ class OctetPool {
  private:
   static constexpr std::size_t kOctetBytes = 8 * sizeof(NODE);
   static constexpr std::size_t kHeaderBytes = std::max<std::size_t>(64, alignof(NODE));
-  static constexpr std::size_t kSlabBytes = std::max<std::size_t>(std::size_t{1} << 20, std::bit_ceil(64 * kOctetBytes));
+  static constexpr std::size_t kSlabBytes =
+      std::max<std::size_t>(std::size_t{1} << 20, std::bit_ceil(64 * kOctetBytes));
   static constexpr OctetRef kLeafCapacity = (kSlabBytes - kHeaderBytes) / kOctetBytes;
   static constexpr OctetRef kInnerCapacity = (kSlabBytes - kHeaderBytes) / (kOctetBytes + sizeof(std::uintptr_t));
   static constexpr int kIndexBits = std::bit_width(kLeafCapacity - 1);
@@ -119,7 +119,7 @@ class OctetPool {
     if (kind.slabs == 0 || kind.next == kind.capacity()) {
       if (slabs_.size() > (kNone >> kIndexBits) - 1) throw std::length_error("rhmap: more than 2^32 octets in one map");
       slabs_.reserve(slabs_.size() + 1);
-      slabs_.push_back(new (::operator new(kSlabBytes, std::align_val_t{kSlabBytes})) Slab{kind.inner});
+      slabs_.push_back(new (::operator new (kSlabBytes, std::align_val_t{kSlabBytes})) Slab{kind.inner});
       kind.current = static_cast<OctetRef>(slabs_.size() - 1);
       kind.next = 0;
       ++kind.slabs;

@@ -37,7 +37,8 @@ class AbstractOcTree {
   /// Writes a .ot stream: text header and all values.
   bool write(std::ostream& s) const;
 
-  /// Reads a .ot file or stream into a tree of the type that its header names. Null if it is not one; the caller owns it.
+  /// Reads a .ot file or stream into a tree of the type that its header names. Null if it is not one; the caller owns
+  /// it.
   static AbstractOcTree* read(const std::string& filename);
   static AbstractOcTree* read(std::istream& s);
 

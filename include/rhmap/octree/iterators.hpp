@@ -145,7 +145,8 @@ class OcTreeLeafIterator : public OcTreeIteratorBase<TREE> {
   }
 };
 
-/// Leaves that touch a box of keys, by OctoMap's test: on the upper side of a leaf it takes one cell more than there is.
+/// Leaves that touch a box of keys, by OctoMap's test: on the upper side of a leaf it takes one cell more than there
+/// is.
 template <class TREE>
 class OcTreeLeafBbxIterator : public OcTreeIteratorBase<TREE> {
   using Base = OcTreeIteratorBase<TREE>;
@@ -197,8 +198,8 @@ class OcTreeLeafBbxIterator : public OcTreeIteratorBase<TREE> {
       if (!this->enter(overlap())) this->passBy(overlap());
   }
 
-  OcTreeKey min_;
-  OcTreeKey max_;
+  OcTreeKey min_{0, 0, 0};
+  OcTreeKey max_{0, 0, 0};
 };
 
 }  // namespace rhmap

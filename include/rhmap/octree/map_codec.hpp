@@ -11,8 +11,8 @@
 
 #include "rhmap/core/block_store.hpp"
 
-/// The node data of .ot and .bt: what stands after the text header, and in messages. Both run over the nodes depth first,
-/// children 0 ... 7.
+/// The node data of .ot and .bt: what stands after the text header, and in messages. Both run over the nodes depth
+/// first, children 0 ... 7.
 namespace rhmap::codec {
 
 /// Collects small pieces and hands them to the stream in large ones.
@@ -114,7 +114,8 @@ void writeBits(const BlockStore<NODE>& store, NodeRef at, const Occupied& occupi
 template <class NODE>
 void readBits(BlockStore<NODE>& store, NodeRef at, float free, float occupied, std::istream& in) {
   const auto bytes = take<2>(in);
-  const unsigned bits = static_cast<std::uint8_t>(bytes[0]) | static_cast<unsigned>(static_cast<std::uint8_t>(bytes[1])) << 8;
+  const unsigned bits = static_cast<std::uint8_t>(bytes[0]) | static_cast<unsigned>(static_cast<std::uint8_t>(bytes[1]))
+                                                                  << 8;
   unsigned mask = 0;
   for (unsigned i = 0; i < 8; ++i) mask |= unsigned{(bits >> (2 * i) & 3) != 0} << i;
   if (mask == 0) return;

@@ -36,8 +36,8 @@ void readBinaryMap(std::istream& s, AbstractOccupancyOcTree& tree);
 /// Reads a .ot stream into a new tree of the type it names. Throws std::runtime_error that says what is wrong.
 std::unique_ptr<AbstractOcTree> readFullMap(std::istream& s);
 
-/// Reads a .bt or .ot file, whichever it is; .bt gives an OcTree. Throws std::runtime_error that names the file and says
-/// what is wrong.
+/// Reads a .bt or .ot file, whichever it is; .bt gives an OcTree. Throws std::runtime_error that names the file and
+/// says what is wrong.
 std::unique_ptr<AbstractOcTree> readMapFile(const std::filesystem::path& file);
 
 }  // namespace rhmap

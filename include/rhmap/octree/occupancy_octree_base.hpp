@@ -20,9 +20,9 @@ using octomap::ScanNode;
 
 /// A tree of occupancy nodes, under OctoMap's names and with OctoMap's answers.
 ///
-/// Lengths in metres, poses sensor to map. Where a call says `lazy_eval`, inner nodes are neither recomputed nor pruned:
-/// call updateInnerOccupancy() (and prune()) when done. Points that are not finite or not inside the tree are skipped;
-/// lastScan() counts them.
+/// Lengths in metres, poses sensor to map. Where a call says `lazy_eval`, inner nodes are neither recomputed nor
+/// pruned: call updateInnerOccupancy() (and prune()) when done. Points that are not finite or not inside the tree are
+/// skipped; lastScan() counts them.
 template <class NODE>
 class OccupancyOcTreeBase : public OcTreeBaseImpl<NODE, AbstractOccupancyOcTree> {
   using Base = OcTreeBaseImpl<NODE, AbstractOccupancyOcTree>;
@@ -31,7 +31,8 @@ class OccupancyOcTreeBase : public OcTreeBaseImpl<NODE, AbstractOccupancyOcTree>
   explicit OccupancyOcTreeBase(double resolution) : Base(resolution) {}
   OccupancyOcTreeBase(const OccupancyOcTreeBase&) = default;
 
-  // --- whole scans ------------------------------------------------------------------------------------------------------
+  // --- whole scans
+  // ------------------------------------------------------------------------------------------------------
 
   /// Inserts a scan, each cell once: the cells that rays end in are hit, the other cells that rays cross are missed.
   /// Points and origin in the map's frame; rays are cut at `maxrange` (negative: no limit). `discretize` keeps one ray
@@ -48,8 +49,8 @@ class OccupancyOcTreeBase : public OcTreeBaseImpl<NODE, AbstractOccupancyOcTree>
   void insertPointCloudRays(const Pointcloud& scan, const point3d& sensor_origin, double maxrange = -1.,
                             bool lazy_eval = false);
 
-  /// One ray: misses up to `end`, a hit there. Longer than `maxrange` (> 0): misses up to there only. False if an end is
-  /// outside of the tree.
+  /// One ray: misses up to `end`, a hit there. Longer than `maxrange` (> 0): misses up to there only. False if an end
+  /// is outside of the tree.
   bool insertRay(const point3d& origin, const point3d& end, double maxrange = -1.0, bool lazy_eval = false);
 
   /// The cells that insertPointCloud would miss and hit, added to what is in the sets already; no cell stays in both.
@@ -65,7 +66,8 @@ class OccupancyOcTreeBase : public OcTreeBaseImpl<NODE, AbstractOccupancyOcTree>
   /// What became of the points of the last insertPointCloud or computeUpdate.
   const ScanCounts& lastScan() const { return last_scan_; }
 
-  // --- single cells -----------------------------------------------------------------------------------------------------
+  // --- single cells
+  // -----------------------------------------------------------------------------------------------------
 
   /// Adds to a cell's log-odds, within the clamping. Returns its node, or the pruned one that it became part of.
   NODE* updateNode(const OcTreeKey& key, float log_odds_update, bool lazy_eval = false) override;
@@ -111,15 +113,17 @@ class OccupancyOcTreeBase : public OcTreeBaseImpl<NODE, AbstractOccupancyOcTree>
   }
   void nodeToMaxLikelihood(NODE& node) const { nodeToMaxLikelihood(&node); }
 
-  // --- rays into the map ------------------------------------------------------------------------------------------------
+  // --- rays into the map
+  // ------------------------------------------------------------------------------------------------
 
-  /// Follows a ray until it enters an occupied cell: true, and `end` is that cell's centre. False, with `end` the centre
-  /// of the cell where it stopped: beyond `maxRange` (> 0), in an unknown cell (unless ignored), at the border of the key
-  /// space. False with `end` untouched: origin outside of the tree, or no direction.
+  /// Follows a ray until it enters an occupied cell: true, and `end` is that cell's centre. False, with `end` the
+  /// centre of the cell where it stopped: beyond `maxRange` (> 0), in an unknown cell (unless ignored), at the border
+  /// of the key space. False with `end` untouched: origin outside of the tree, or no direction.
   bool castRay(const point3d& origin, const point3d& direction, point3d& end, bool ignoreUnknown = false,
                double maxRange = -1.0) const;
 
-  // --- limits of insertPointCloud -----------------------------------------------------------------------------------------
+  // --- limits of insertPointCloud
+  // -----------------------------------------------------------------------------------------
 
   void useBBXLimit(bool enable) { use_bbx_limit_ = enable; }
   bool bbxSet() const { return use_bbx_limit_; }
@@ -142,7 +146,8 @@ class OccupancyOcTreeBase : public OcTreeBaseImpl<NODE, AbstractOccupancyOcTree>
   bool inBBX(const point3d& p) const { return box_.contains(p); }
   bool inBBX(const OcTreeKey& key) const { return box_.contains(key); }
 
-  // --- change detection ---------------------------------------------------------------------------------------------------
+  // --- change detection
+  // ---------------------------------------------------------------------------------------------------
 
   /// Remembers the cells that appear (true) or change between free and occupied (false) by updates of cells.
   void enableChangeDetection(bool enable) { use_change_detection_ = enable; }
@@ -152,7 +157,8 @@ class OccupancyOcTreeBase : public OcTreeBaseImpl<NODE, AbstractOccupancyOcTree>
   KeyBoolMap::const_iterator changedKeysEnd() const { return changed_keys_.end(); }
   std::size_t numChangesDetected() const { return changed_keys_.size(); }
 
-  // --- files --------------------------------------------------------------------------------------------------------------
+  // --- files
+  // --------------------------------------------------------------------------------------------------------------
 
   std::istream& readBinaryData(std::istream& s) override;
   std::ostream& writeBinaryData(std::ostream& s) const override;

@@ -8,7 +8,8 @@
 
 namespace rhmap {
 
-// --- whole scans --------------------------------------------------------------------------------------------------------
+// --- whole scans
+// --------------------------------------------------------------------------------------------------------
 
 template <class NODE>
 ScanMasks OccupancyOcTreeBase<NODE>::mark(const Pointcloud& scan, const point3d& origin, double maxrange,
@@ -84,7 +85,8 @@ void OccupancyOcTreeBase<NODE>::computeDiscreteUpdate(const Pointcloud& scan, co
   addTo(mark(scan, origin, maxrange, true), free_cells, occupied_cells);
 }
 
-// --- single cells -------------------------------------------------------------------------------------------------------
+// --- single cells
+// -------------------------------------------------------------------------------------------------------
 
 /// `leaf`: the cell's node if it exists at depth 16 already, else empty.
 template <class NODE>
@@ -93,7 +95,7 @@ NODE* OccupancyOcTreeBase<NODE>::changeCell(NodeRef leaf, const OcTreeKey& key, 
   bool created = false;
   if (!leaf) {
     leaf = structure::reach(*this->store_, key, kTreeDepth, created);
-    }
+  }
   NODE* node = this->store_->node(leaf);
   if (use_change_detection_) {
     const bool occupied_before = this->isNodeOccupied(node);
@@ -150,7 +152,8 @@ void OccupancyOcTreeBase<NODE>::toMaxLikelihood() {
   });
 }
 
-// --- rays into the map --------------------------------------------------------------------------------------------------
+// --- rays into the map
+// --------------------------------------------------------------------------------------------------
 
 template <class NODE>
 bool OccupancyOcTreeBase<NODE>::castRay(const point3d& origin, const point3d& direction, point3d& end,
@@ -183,13 +186,15 @@ bool OccupancyOcTreeBase<NODE>::castRay(const point3d& origin, const point3d& di
   }
 }
 
-// --- files --------------------------------------------------------------------------------------------------------------
+// --- files
+// --------------------------------------------------------------------------------------------------------------
 
 template <class NODE>
 std::ostream& OccupancyOcTreeBase<NODE>::writeBinaryData(std::ostream& s) const {
   codec::ByteWriter out(s);
   if (const NodeRef root = this->store_->root())
-    codec::writeBits(*this->store_, root, [this](const NODE& node) { return this->isNodeOccupied(&node); }, out);
+    codec::writeBits(
+        *this->store_, root, [this](const NODE& node) { return this->isNodeOccupied(&node); }, out);
   return s;
 }
 

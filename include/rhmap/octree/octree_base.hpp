@@ -37,7 +37,9 @@ class OcTreeBaseImpl : public INTERFACE {
 
   /// An empty tree with cells of this edge length [m].
   explicit OcTreeBaseImpl(double resolution) : keys_(resolution) {}
-  OcTreeBaseImpl(const OcTreeBaseImpl& other) : INTERFACE(other), keys_(other.keys_) { store_->copyFrom(*other.store_); }
+  OcTreeBaseImpl(const OcTreeBaseImpl& other) : INTERFACE(other), keys_(other.keys_) {
+    store_->copyFrom(*other.store_);
+  }
   OcTreeBaseImpl& operator=(const OcTreeBaseImpl&) = delete;
 
   /// Swaps the nodes, and nothing else, with another tree.
@@ -52,7 +54,8 @@ class OcTreeBaseImpl : public INTERFACE {
     if (getResolution() != other.getResolution() || size() != other.size()) return false;
     auto b = other.begin_tree();
     for (auto a = begin_tree(), end = end_tree(); a != end; ++a, ++b)
-      if (b == other.end_tree() || a.getDepth() != b.getDepth() || a.getKey() != b.getKey() || !(*a == *b)) return false;
+      if (b == other.end_tree() || a.getDepth() != b.getDepth() || a.getKey() != b.getKey() || !(*a == *b))
+        return false;
     return b == other.end_tree();
   }
 
@@ -119,8 +122,9 @@ class OcTreeBaseImpl : public INTERFACE {
     return keys_.coordToKeyChecked(x, y, z, key) ? search(key, depth) : nullptr;
   }
 
-  /// Deletes the node at `depth` (0: 16) with all below it, expanding pruned leaves on the way; ancestors that lose their
-  /// last child go with it, except the root. True if the root lost its last child or there was none: OctoMap's answer.
+  /// Deletes the node at `depth` (0: 16) with all below it, expanding pruned leaves on the way; ancestors that lose
+  /// their last child go with it, except the root. True if the root lost its last child or there was none: OctoMap's
+  /// answer.
   bool deleteNode(const OcTreeKey& key, unsigned depth = 0) {
     return structure::deleteNode(*store_, key, depth == 0 ? kTreeDepth : depth);
   }
@@ -139,7 +143,8 @@ class OcTreeBaseImpl : public INTERFACE {
   /// Expands every leaf down to depth 16.
   void expand() override { structure::expandAll(*store_); }
 
-  // --- statistics -----------------------------------------------------------------------------------------------------
+  // --- statistics
+  // -----------------------------------------------------------------------------------------------------
 
   /// Number of nodes, inner ones included.
   std::size_t size() const override { return store_->size(); }
@@ -176,10 +181,11 @@ class OcTreeBaseImpl : public INTERFACE {
   void getMetricSize(double& x, double& y, double& z) override { spread(cachedBounds().size(), x, y, z); }
   void getMetricSize(double& x, double& y, double& z) const { spread(knownBounds().size(), x, y, z); }
 
-  // --- rays -------------------------------------------------------------------------------------------------------------
+  // --- rays
+  // -------------------------------------------------------------------------------------------------------------
 
-  /// Keys from the origin's cell (included) to the end's (not included); empty if they are the same. False if one of the
-  /// points is outside of the tree.
+  /// Keys from the origin's cell (included) to the end's (not included); empty if they are the same. False if one of
+  /// the points is outside of the tree.
   bool computeRayKeys(const point3d& origin, const point3d& end, KeyRay& ray) const {
     return rhmap::computeRayKeys(keys_, origin, end, ray);
   }
@@ -191,12 +197,14 @@ class OcTreeBaseImpl : public INTERFACE {
   /// There are no ray buffers to clear; kept for code that calls it.
   void clearKeyRays() {}
 
-  // --- files ------------------------------------------------------------------------------------------------------------
+  // --- files
+  // ------------------------------------------------------------------------------------------------------------
 
   std::istream& readData(std::istream& s) override;
   std::ostream& writeData(std::ostream& s) const override;
 
-  // --- iterators --------------------------------------------------------------------------------------------------------
+  // --- iterators
+  // --------------------------------------------------------------------------------------------------------
 
   iterator begin(unsigned char max_depth = 0) const { return iterator(this, max_depth); }
   iterator end() const { return {}; }
@@ -212,7 +220,8 @@ class OcTreeBaseImpl : public INTERFACE {
   tree_iterator begin_tree(unsigned char max_depth = 0) const { return tree_iterator(this, max_depth); }
   tree_iterator end_tree() const { return {}; }
 
-  // --- keys and coordinates ---------------------------------------------------------------------------------------------
+  // --- keys and coordinates
+  // ---------------------------------------------------------------------------------------------
 
   key_type coordToKey(double x) const { return keys_.coordToKey(x); }
   key_type coordToKey(double x, unsigned depth) const { return keys_.coordToKey(x, depth); }
@@ -279,7 +288,8 @@ class OcTreeBaseImpl : public INTERFACE {
   }
   bool boundsAreKnown() const { return bounds_ && bounds_->version == store_->version(); }
   const Bounds& cachedBounds() {
-    if (!boundsAreKnown()) bounds_ = computeBounds([](double centre, double size) { return centre - size / 2.0 + size; });
+    if (!boundsAreKnown())
+      bounds_ = computeBounds([](double centre, double size) { return centre - size / 2.0 + size; });
     return *bounds_;
   }
   /// OctoMap rounds the upper end in another way where it has nothing cached.

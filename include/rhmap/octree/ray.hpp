@@ -44,17 +44,19 @@ RayStart startSegment(const KeySpace& keys, const point3d& origin, const point3d
 
 /// Sets up OctoMap's castRay from the centre-less `origin`, which lies in cell `key`, along a unit vector. Empty if the
 /// direction is (0, 0, 0).
-std::optional<Ray> startCast(const KeySpace& keys, const point3d& origin, const OcTreeKey& key, const point3d& direction);
+std::optional<Ray> startCast(const KeySpace& keys, const point3d& origin, const OcTreeKey& key,
+                             const point3d& direction);
 
-/// direction / |direction| and |b - a|, as OctoMap computes them (out of line, so that a consumer's -mfma cannot fuse them).
+/// direction / |direction| and |b - a|, as OctoMap computes them (out of line, so that a consumer's -mfma cannot fuse
+/// them).
 point3d unitVector(const point3d& v);
 double distance(const point3d& a, const point3d& b);
 
 /// Where OctoMap cuts a ray that is longer than `max_range` [m].
 point3d cutAt(const point3d& origin, const point3d& end, double max_range);
 
-/// Visits the cells from the origin's (included) to the end's (excluded); none if they are the same. False if one of the
-/// points is outside of the tree.
+/// Visits the cells from the origin's (included) to the end's (excluded); none if they are the same. False if one of
+/// the points is outside of the tree.
 template <class Visit>
 bool forEachRayKey(const KeySpace& keys, const point3d& origin, const point3d& end, Visit&& visit) {
   RaySegment ray;

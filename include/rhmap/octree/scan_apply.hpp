@@ -12,7 +12,7 @@ namespace rhmap {
 
 /// The log-odds that an insertion works with.
 struct SensorModel {
-  float hit, miss;           ///< added to a cell that is hit / crossed
+  float hit, miss;  ///< added to a cell that is hit / crossed
   float clamp_min, clamp_max;
 
   /// OctoMap's early abort: this update leaves a cell with this value as it is, and does not even expand a pruned leaf.
@@ -30,7 +30,8 @@ struct SensorModel {
 template <class NODE>
 class ScanApplier {
  public:
-  ScanApplier(BlockStore<NODE>& store, const SensorModel& model, bool lazy) : store_(store), model_(model), lazy_(lazy) {}
+  ScanApplier(BlockStore<NODE>& store, const SensorModel& model, bool lazy)
+      : store_(store), model_(model), lazy_(lazy) {}
 
   void apply(const RegionMasks& masks) {
     for (std::size_t t = 0; t < 8; ++t) {

@@ -36,10 +36,12 @@ struct ScanMarkingConfig {
 struct ScanCounts {
   std::size_t points = 0;
   std::size_t not_finite = 0;  ///< NaN or infinite: skipped
-  std::size_t outside = 0;     ///< the ray starts or ends outside of the tree: frees nothing, and hits only where the end is inside
+  std::size_t outside =
+      0;  ///< the ray starts or ends outside of the tree: frees nothing, and hits only where the end is inside
 };
 
-/// OctoMap's computeUpdate. Points and origin in the map's frame [m]. The answer does not depend on the number of threads.
+/// OctoMap's computeUpdate. Points and origin in the map's frame [m]. The answer does not depend on the number of
+/// threads.
 ScanMasks markScan(const KeySpace& keys, const octomap::Pointcloud& scan, const point3d& origin,
                    const ScanMarkingConfig& config, ScanCounts& counts);
 

@@ -26,9 +26,8 @@ inline constexpr std::uint64_t kAxis[3] = {
 };
 
 inline std::uint64_t fromKey(const OcTreeKey& key) {
-  return static_cast<std::uint64_t>(cellIndex(key, kRegionLevel)) |
-         static_cast<std::uint64_t>(key[0] >> 3) << 9 | static_cast<std::uint64_t>(key[1] >> 3) << 22 |
-         static_cast<std::uint64_t>(key[2] >> 3) << 35;
+  return static_cast<std::uint64_t>(cellIndex(key, kRegionLevel)) | static_cast<std::uint64_t>(key[0] >> 3) << 9 |
+         static_cast<std::uint64_t>(key[1] >> 3) << 22 | static_cast<std::uint64_t>(key[2] >> 3) << 35;
 }
 
 inline OcTreeKey toKey(std::uint64_t word) {
@@ -53,15 +52,15 @@ constexpr std::uint64_t advance(std::uint64_t word, std::uint64_t axis_mask, std
 
 /// What one scan says about the 512 cells of one region; bits in Morton order, one word an octant.
 struct RegionMasks {
-  std::uint64_t region;                ///< cell word >> 9
-  std::array<std::uint64_t, 8> free;   ///< crossed by a ray
-  std::array<std::uint64_t, 8> hit;    ///< a ray ends here: wins over free
+  std::uint64_t region;               ///< cell word >> 9
+  std::array<std::uint64_t, 8> free;  ///< crossed by a ray
+  std::array<std::uint64_t, 8> hit;   ///< a ray ends here: wins over free
 
   OcTreeKey corner() const { return cell_word::toKey(region << 9); }
 };
 
-/// A scan as two masks a region: the set of cells that any ray crosses and the set of cells that any ray ends in. Marking
-/// is an OR, so neither order nor repetition nor the number of threads matters.
+/// A scan as two masks a region: the set of cells that any ray crosses and the set of cells that any ray ends in.
+/// Marking is an OR, so neither order nor repetition nor the number of threads matters.
 class ScanMasks {
  public:
   /// For cells anywhere: regions are found by hashing.

@@ -39,8 +39,8 @@ bool prune(BlockStore<NODE>& store, NodeRef at) {
   return true;
 }
 
-/// OctoMap's rule on the way up: eight equal leaves become their parent, else the parent is recomputed from its children.
-/// True if it was pruned.
+/// OctoMap's rule on the way up: eight equal leaves become their parent, else the parent is recomputed from its
+/// children. True if it was pruned.
 template <class NODE>
 bool summarise(BlockStore<NODE>& store, NodeRef at) {
   if (prune(store, at)) return true;
@@ -124,7 +124,8 @@ std::vector<Block*> blocksOfLevel(const BlockStore<NODE>& store, int level) {
   return blocks;
 }
 
-/// Calls `visit(NodeRef)` for all existing nodes at a depth, in no particular order. It may remove what is below a node.
+/// Calls `visit(NodeRef)` for all existing nodes at a depth, in no particular order. It may remove what is below a
+/// node.
 template <class NODE, class F>
 void forEachAtDepth(const BlockStore<NODE>& store, unsigned depth, F&& visit) {
   const int level = static_cast<int>(depth + 1) / 3;

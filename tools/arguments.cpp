@@ -1,0 +1,119 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "arguments.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cctype>
+#include <charconv>
+#include <cmath>
+#include <filesystem>
+#include <utility>
+
+namespace rhmap::tools {
+namespace {
+
+/// The whole text as a number, or nothing.
+template <class Number>
+std::optional<Number> parseNumber(std::string_view text) {
+  Number value{};
+  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
+  if (error != std::errc() || end != text.data() + text.size()) return std::nullopt;
+  return value;
+}
+
+/// A validator that answers a wrong value with `message(value)`.
+template <class Accepts, class Message>
+CLI::Validator makeValidator(Accepts accepts, Message message) {
+  return CLI::Validator([=](std::string& text) { return accepts(text) ? std::string() : message(text); }, "");
+}
+
+/// Why no file can be written under this name; empty if it can.
+std::string folderProblem(const std::string& path) {
+  const auto folder = std::filesystem::path(path).parent_path();
+  if (!folder.empty() && !std::filesystem::is_directory(folder))
+    return fmt::format("{}: there is no folder {}", path, folder.string());
+  return std::filesystem::is_directory(path) ? path + " is a folder" : "";
+}
+
+}  // namespace
+
+std::optional<FrameRange> parseFrames(const std::string& text) {
+  const auto dash = text.find('-');
+  const auto first = parseNumber<std::size_t>(std::string_view(text).substr(0, dash));
+  const auto last =
+      dash == std::string::npos ? first : parseNumber<std::size_t>(std::string_view(text).substr(dash + 1));
+  if (!first || !last || *first > *last) return std::nullopt;
+  return FrameRange{*first, *last};
+}
+
+std::string extensionOf(const std::string& path) {
+  std::string extension = std::filesystem::path(path).extension().string();
+  std::transform(extension.begin(), extension.end(), extension.begin(),
+                 [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
+  return extension;
+}
+
+CLI::Validator outputFile(std::span<const std::string_view> extensions) {
+  return CLI::Validator(
+      [extensions](std::string& path) -> std::string {
+        const std::string extension = extensionOf(path);
+        if (std::find(extensions.begin(), extensions.end(), extension) == extensions.end())
+          return fmt::format("{} has no known extension; one of: {}", path, fmt::join(extensions, ", "));
+        return folderProblem(path);
+      },
+      "");
+}
+
+CLI::Validator outputFileOrStdout() {
+  return CLI::Validator([](std::string& path) { return path == "-" ? std::string() : folderProblem(path); }, "");
+}
+
+CLI::Validator lengthAbove0() {
+  return makeValidator(
+      [](const std::string& text) {
+        const auto value = parseNumber<double>(text);
+        return value && std::isfinite(*value) && *value > 0;
+      },
+      [](const std::string& text) { return text + " is not a length above 0; metres, e.g. 0.1"; });
+}
+
+CLI::Validator lengthFrom0() {
+  return makeValidator(
+      [](const std::string& text) {
+        const auto value = parseNumber<double>(text);
+        return value && std::isfinite(*value) && *value >= 0;
+      },
+      [](const std::string& text) { return text + " is not a length; metres, 0 or more, e.g. 2.7"; });
+}
+
+CLI::Validator countFrom1(std::string what) {
+  return makeValidator(
+      [](const std::string& text) {
+        const auto value = parseNumber<int>(text);
+        return value && *value >= 1;
+      },
+      [what = std::move(what)](const std::string& text) {
+        return fmt::format("{} is not a number of {}; 1 or more", text, what);
+      });
+}
+
+CLI::Validator frameRange() {
+  return makeValidator(
+      [](const std::string& text) { return parseFrames(text).has_value(); },
+      [](const std::string& text) { return text + " is not a range of frames; A-B with A not above B, e.g. 0-9"; });
+}
+
+CLI::Validator oneOf(std::string what, std::span<const std::string_view> words) {
+  return makeValidator(
+      [words](const std::string& text) { return std::find(words.begin(), words.end(), text) != words.end(); },
+      [what = std::move(what), words](const std::string& text) {
+        return fmt::format("{} is not a {}; one of: {}", text, what, fmt::join(words, ", "));
+      });
+}
+
+void requireExists(const std::string& path) {
+  if (!std::filesystem::exists(path)) throw std::runtime_error(path + ": No such file");
+}
+
+}  // namespace rhmap::tools

@@ -1,0 +1,53 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <CLI/CLI.hpp>
+#include <cstddef>
+#include <optional>
+#include <span>
+#include <stdexcept>
+#include <string>
+#include <string_view>
+
+namespace rhmap::tools {
+
+/// The program was called wrongly; the message says what would be right.
+struct UsageError : std::runtime_error {
+  using std::runtime_error::runtime_error;
+};
+
+/// Scans of a sequence, both ends included.
+struct FrameRange {
+  std::size_t first = 0;
+  std::size_t last = 0;
+};
+
+/// "A-B" or "A"; nothing when it is neither or runs backwards.
+std::optional<FrameRange> parseFrames(const std::string& text);
+
+/// What follows the last dot of a file name, in lower case and with the dot.
+std::string extensionOf(const std::string& path);
+
+/// Accepts files with one of these extensions in a folder that exists, so that a long run is not lost at its end.
+CLI::Validator outputFile(std::span<const std::string_view> extensions);
+
+/// Accepts any file in a folder that exists, and "-".
+CLI::Validator outputFileOrStdout();
+
+/// Accepts a length [m]: above 0, or from 0 on.
+CLI::Validator lengthAbove0();
+CLI::Validator lengthFrom0();
+
+/// Accepts a whole number from 1 on.
+CLI::Validator countFrom1(std::string what);
+
+/// Accepts "A-B" and "A".
+CLI::Validator frameRange();
+
+/// Accepts one of these words; `what` is the noun for a wrong one.
+CLI::Validator oneOf(std::string what, std::span<const std::string_view> words);
+
+/// Throws "FILE: No such file" when there is none.
+void requireExists(const std::string& path);
+
+}  // namespace rhmap::tools

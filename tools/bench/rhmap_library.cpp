@@ -1,0 +1,21 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "rhmap/octree/octree.hpp"
+#include "tree_library.hpp"
+
+namespace rhmap::bench {
+namespace {
+
+constexpr auto kMapTitles = [] {
+  std::array<Title, maps::kBenchmarks<OcTree>.size()> titles;
+  for (std::size_t i = 0; i < titles.size(); ++i) titles[i] = maps::kBenchmarks<OcTree>[i].title;
+  return titles;
+}();
+
+}  // namespace
+
+std::span<const Title> scanTitles() { return scans::kTitles; }
+std::span<const Title> mapTitles() { return kMapTitles; }
+
+std::unique_ptr<Library> makeRhmap(double resolution) { return std::make_unique<TreeLibrary<OcTree>>(resolution); }
+
+}  // namespace rhmap::bench

@@ -1,0 +1,19 @@
+#!/usr/bin/env bash
+# SPDX-License-Identifier: BSD-3-Clause
+# tools/demo.sh: from a fresh checkout to a map. Installs what is missing, builds the program into build/, unpacks the
+# KITTI clip, and makes out/map.bt, out/map.ot and out/summary.json of it, beside OctoMap on the same scans.
+#
+# 0.2 m is chosen for OctoMap's sake: at that resolution it takes about a second a scan, at 0.1 m about four.
+set -euo pipefail
+
+root=$(cd -- "$(dirname -- "${BASH_SOURCE[0]}")/.." && pwd)
+cd -- "$root"
+
+tools/install-deps.sh main
+cmake -S . -B build -G Ninja -DCMAKE_BUILD_TYPE=Release -DRHMAP_BUILD_TOOLS=ON
+cmake --build build --target rhmap_cli
+data/unpack.sh build/data
+
+mkdir -p out
+build/bin/rhmap build build/data/kitti_raw_0005 out/map.bt out/map.ot \
+  --resolution 0.2 --min-range 2.7 --max-range 50 --compare --json out/summary.json

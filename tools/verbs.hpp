@@ -1,0 +1,15 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+namespace CLI {
+class App;
+}
+
+namespace rhmap::tools {
+
+/// Each adds one verb to the program: its options, its help and what it does when it is called.
+void addBuild(CLI::App& app);
+void addInfo(CLI::App& app);
+void addConvert(CLI::App& app);
+
+}  // namespace rhmap::tools
