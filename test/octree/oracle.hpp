@@ -5,6 +5,7 @@
 // gives others (the box limit of insertPointCloud, issue OctoMap/octomap#358).
 #include <octomap/octomap_types.h>
 
+#undef _OPENMP  // with it OctoMap's insertPointCloudRays updates in an order that differs from run to run
 #undef OCTOMAP_WARNING_STR
 #undef OCTOMAP_WARNING
 #undef OCTOMAP_ERROR_STR

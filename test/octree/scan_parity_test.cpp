@@ -8,7 +8,9 @@
 
 #include <cstdlib>
 #include <memory>
+#include <ostream>
 #include <string>
+#include <vector>
 
 #include "../clip.hpp"
 #include "oracle.hpp"
@@ -27,6 +29,8 @@ struct Setting {
            (discretize ? ", discretize" : "");
   }
 };
+
+void PrintTo(const Setting& setting, std::ostream* out) { *out << setting.text(); }
 
 std::vector<Setting> allSettings() {
   std::vector<Setting> settings;
