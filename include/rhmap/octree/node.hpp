@@ -3,6 +3,7 @@
 
 #include <octomap/octomap_utils.h>
 
+#include <bit>
 #include <cfloat>
 #include <cstddef>
 #include <cstring>
@@ -65,9 +66,15 @@ class OcTreeNode : public OcTreeDataNode<float> {
   /// Largest value of the children, -FLT_MAX if there is none; of equal values (0 and -0) the first, NaN never.
   template <class NODE>
   static float maxLogOdds(const Octet<NODE>& children) {
+    // The order of the comparison, and of what is compared with what, settles ties and NaN as OctoMap's loop does.
+    const auto larger = [](float first, float second) { return second > first ? second : first; };
+    const auto value = [&](unsigned i) { return larger(-FLT_MAX, children.nodes[i].getLogOdds()); };
+    if (children.mask == 0xff)
+      return larger(larger(larger(value(0), value(1)), larger(value(2), value(3))),
+                    larger(larger(value(4), value(5)), larger(value(6), value(7))));
     float max = -FLT_MAX;
-    for (unsigned i = 0; i < 8; ++i)
-      if (children.has(i) && children.nodes[i].getLogOdds() > max) max = children.nodes[i].getLogOdds();
+    for (unsigned rest = children.mask; rest != 0; rest &= rest - 1)
+      max = larger(max, value(static_cast<unsigned>(std::countr_zero(rest))));
     return max;
   }
 };

@@ -105,7 +105,7 @@ NODE* OccupancyOcTreeBase<NODE>::changeCell(NodeRef leaf, const OcTreeKey& key, 
     change(node);
   }
   if (lazy_eval) return node;
-  const NodeRef pruned = structure::summariseUpwards(*this->store_, this->store_->parent(leaf));
+  const NodeRef pruned = structure::summariseAbove(*this->store_, leaf);
   if (!pruned) return node;
   return this->store_->node(pruned);
 }

@@ -146,15 +146,19 @@ class ScanApplier {
 
   /// Prunes or recomputes what lies above the changed cells: middle nodes, top nodes, and the way up to the root.
   void summarise(Block& region, const std::array<std::uint8_t, 8>& changed) {
-    const NodeRef cell = store_.parent({&region, kTopSlot});
+    NodeRef top;
     for (int t = 0; t < 8; ++t) {
       const unsigned middles = changed[static_cast<std::size_t>(t)];
       if (middles == 0) continue;
-      for (unsigned rest = middles; rest != 0; rest &= rest - 1)
-        structure::summarise(store_, NodeRef{&region, kMiddleSlot + 8 * t + std::countr_zero(rest)});
-      structure::summarise(store_, NodeRef{&region, kTopSlot + t});
+      NodeRef middle;
+      for (unsigned rest = middles; rest != 0; rest &= rest - 1) {
+        middle = {&region, kMiddleSlot + 8 * t + std::countr_zero(rest)};
+        structure::summarise(store_, middle, {&region, firstCell(middle.slot)});
+      }
+      top = {&region, kTopSlot + t};
+      structure::summarise(store_, top, middle);
     }
-    structure::summariseUpwards(store_, cell);
+    structure::summariseAbove(store_, top);
   }
 
   BlockStore<NODE>& store_;

@@ -8,15 +8,21 @@
 /// OctoMap's rules for the structure of the tree: when eight leaves become one, and how one becomes eight again.
 namespace rhmap::structure {
 
+/// The eight nodes of an octet (block and number) exist, are leaves and are equal.
+template <class NODE>
+bool isUniform(const BlockStore<NODE>& store, NodeRef octet) {
+  if (octet.block->mask[octet.slot] != 0xff) return false;
+  const NODE* node = store.octet(octet.block, octet.slot).nodes;
+  for (int i = 1; i < 8; ++i)
+    if (!(node[i] == node[0])) return false;
+  return !store.anyHasChildren(octet);
+}
+
 /// All eight children exist, are leaves and are equal.
 template <class NODE>
 bool isCollapsible(const BlockStore<NODE>& store, NodeRef at) {
-  const NodeRef o = store.childOctetOf(at);
-  if (!o || o.block->mask[o.slot] != 0xff) return false;
-  const NODE* child = store.octet(o.block, o.slot).nodes;
-  for (int i = 1; i < 8; ++i)
-    if (!(child[i] == child[0])) return false;
-  return !store.anyHasChildren(o) && child[0] == child[0];  // NaN equals nothing
+  const NodeRef octet = store.childOctetOf(at);
+  return octet && isUniform(store, octet);
 }
 
 /// Gives a leaf eight children with its data; a no-op at depth 16.
@@ -29,31 +35,43 @@ void expand(BlockStore<NODE>& store, NodeRef at) {
   for (int i = 0; i < 8; ++i) child[i].copyData(*from);
 }
 
+/// Replaces the eight nodes of a uniform octet by their parent.
+template <class NODE>
+void collapse(BlockStore<NODE>& store, NodeRef parent, NodeRef octet) {
+  store.node(parent)->copyData(*store.octet(octet.block, octet.slot).nodes);
+  store.removeNodes(octet.block, octet.slot, 0xff);
+}
+
 /// Replaces eight equal leaves by their parent; false if it is not collapsible.
 template <class NODE>
 bool prune(BlockStore<NODE>& store, NodeRef at) {
-  if (!isCollapsible(store, at)) return false;
-  const NodeRef o = store.childOctetOf(at);
-  store.node(at)->copyData(*store.octet(o.block, o.slot).nodes);
-  store.removeNodes(o.block, o.slot, 0xff);
+  const NodeRef octet = store.childOctetOf(at);
+  if (!octet || !isUniform(store, octet)) return false;
+  collapse(store, at, octet);
   return true;
 }
 
-/// OctoMap's rule on the way up: eight equal leaves become their parent, else the parent is recomputed from its
-/// children. True if it was pruned.
+/// OctoMap's rule on the way up from a child: eight equal leaves become their parent, else the parent is recomputed
+/// from its children. True if it was pruned.
 template <class NODE>
-bool summarise(BlockStore<NODE>& store, NodeRef at) {
-  if (prune(store, at)) return true;
-  store.node(at)->updateOccupancyChildren(store.children(at));
+bool summarise(BlockStore<NODE>& store, NodeRef parent, NodeRef child) {
+  const NodeRef octet{child.block, child.slot >> 3};
+  if (isUniform(store, octet)) {
+    collapse(store, parent, octet);
+    return true;
+  }
+  store.node(parent)->updateOccupancyChildren(store.octet(octet.block, octet.slot));
   return false;
 }
 
-/// summarise() for a node and all its ancestors. Returns the highest one that was pruned, if any.
+/// summarise() for all ancestors of a node. Returns the highest one that was pruned, if any.
 template <class NODE>
-NodeRef summariseUpwards(BlockStore<NODE>& store, NodeRef at) {
+NodeRef summariseAbove(BlockStore<NODE>& store, NodeRef child) {
   NodeRef pruned;
-  for (; at; at = store.parent(at))
-    if (summarise(store, at)) pruned = at;
+  while (const NodeRef parent = store.parent(child)) {
+    if (summarise(store, parent, child)) pruned = parent;
+    child = parent;
+  }
   return pruned;
 }
 
