@@ -26,9 +26,9 @@ void measure(Pair& pair, Row& row, std::size_t turn, F&& run) {
   std::array<Sample, 2> samples;  // octomap, rhmap
   for (const std::size_t which : {turn % 2, 1 - turn % 2}) {
     samples[which] = run(which == 0 ? *pair.octomap : *pair.rhmap);
-    // OctoMap frees millions of small nodes. glibc puts off sorting them until the next large allocation, whoever makes
-    // it: outside of the measurement it is nobody's.
-    if (which == 0) malloc_trim(0);
+    // Millions of small nodes were freed, of OctoMap's tree or of key sets. glibc puts off sorting them until the next
+    // large allocation, whoever makes it: outside of the measurement it is nobody's.
+    malloc_trim(0);
   }
   row.octomap.push_back(samples[0].seconds / static_cast<double>(samples[0].operations));
   row.rhmap.push_back(samples[1].seconds / static_cast<double>(samples[1].operations));
@@ -75,7 +75,7 @@ void compare(std::span<const WorldScan> scans, double resolution, const Comparis
     row.same_answers = row.same_answers && pair.octomap->finish(b) == pair.rhmap->finish(b);
     malloc_trim(0);
     if (wanted(title)) done(row);
-    if (b == 0 && config.only.empty()) memory_done(memoryOf(pair, fmt::format("KITTI, {} m", resolution)));
+    if (b == 0 && config.only.empty()) memory_done(memoryOf(pair, fmt::format("the scans, {} m", resolution)));
   }
 
   const MapWorkload work = drawWorkload(*pair.rhmap, resolution, scans, config.rounds);

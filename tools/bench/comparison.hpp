@@ -14,7 +14,7 @@ namespace rhmap::bench {
 struct ComparisonConfig {
   double max_range = 50;          ///< of the scans' rays [m]
   std::size_t variant_scans = 3;  ///< scans of each scan benchmark but the first, which gets all
-  std::size_t rounds = 5;         ///< runs of every map benchmark
+  std::size_t rounds = 3;         ///< runs of every map benchmark
   std::string only;               ///< run the benchmarks with this in their name; the map is built anyway
 };
 

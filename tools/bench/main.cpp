@@ -25,7 +25,7 @@ constexpr const char* kFooter =
 
 struct Options {
   std::string sequence;
-  std::size_t scans = 6;
+  std::size_t scans = 5;
   std::vector<double> resolutions{0.2, 0.1};
   std::vector<std::string> maps;
   std::string json;
