@@ -285,8 +285,7 @@ TYPED_TEST(Contract, ChangesAreRememberedUntilTheyAreUndone) {
   EXPECT_EQ(this->map.numChangesDetected(), 0U);
 }
 
-// --- where rhmap differs, on purpose (doc/octomap-differences.md)
-// -------------------------------------------------------
+// --- where rhmap differs, on purpose (doc/octomap-differences.md) ---
 
 TEST(Difference, DeletingAnInnerNodeDeletesWhatIsBelowAndCountsIt) {
   OcTree map(0.1);

@@ -41,7 +41,7 @@ class BlockStore {
   /// Goes up whenever nodes are made or removed.
   std::uint64_t version() const { return version_; }
 
-  // --- finding ------------------------------------------------------------------------------------------------------
+  // --- finding ---
 
   /// The block of this level around `key`, or null.
   Block* findBlock(const OcTreeKey& key, int level) const { return index_.find(blockKey(key, level)); }
@@ -57,16 +57,18 @@ class BlockStore {
     for (int l = level; l >= 0; --l) {
       Block* block = findBlock(key, l);
       if (block == nullptr) continue;
+      // A cell of an upper block whose own block was not found has no children: it is what contains the node.
       const int cell = cellIndex(key, l);
-      const int first = l == level ? slotAbove(cell, static_cast<int>(depth) - 3 * level) : cell;
-      for (int slot = first; slot < kSlots; slot = parentSlot(slot >> 3)) {
-        if (!block->has(slot)) continue;
-        const bool wanted = l == level && slot == first;
-        // A cell of an upper block whose own block was not found has no children.
-        return wanted || slot < kCells || block->mask[childOctet(slot)] == 0 ? NodeRef{block, slot} : NodeRef{};
-      }
-      return {};  // the cell above this block has children, but not this one
+      return searchIn(block, l == level ? slotAbove(cell, static_cast<int>(depth) - 3 * level) : cell);
     }
+    return {};
+  }
+
+  /// The node in a slot, or the leaf of the same block that contains it; empty if unknown.
+  static NodeRef searchIn(Block* block, int slot) {
+    if (block->has(slot)) return {block, slot};
+    for (slot = parentSlot(slot >> 3); slot < kSlots; slot = parentSlot(slot >> 3))
+      if (block->has(slot)) return block->mask[childOctet(slot)] == 0 ? NodeRef{block, slot} : NodeRef{};
     return {};
   }
 
@@ -83,8 +85,7 @@ class BlockStore {
     return {};
   }
 
-  // --- around a node
-  // --------------------------------------------------------------------------------------------------
+  // --- around a node ---
 
   NODE* node(NodeRef r) const {
     return nodes_.nodes(r.block->octet[static_cast<unsigned>(r.slot) >> 3]) + (r.slot & 7);
@@ -133,8 +134,7 @@ class BlockStore {
     return false;
   }
 
-  // --- changing
-  // ---------------------------------------------------------------------------------------------------------
+  // --- changing ---
 
   /// Makes the root of an empty tree.
   NodeRef createRoot() {

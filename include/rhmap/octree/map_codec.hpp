@@ -64,7 +64,7 @@ std::uint8_t innerMask(const BlockStore<NODE>& store, NodeRef octet, std::uint8_
   return static_cast<std::uint8_t>(inner);
 }
 
-// --- .ot: value and child mask of every node ------------------------------------------------------------------------
+// --- .ot: value and child mask of every node ---
 
 template <class NODE>
 void writeValues(const BlockStore<NODE>& store, NodeRef at, ByteWriter& out) {
@@ -88,7 +88,7 @@ void readValues(BlockStore<NODE>& store, NodeRef at, std::istream& in) {
     readValues(store, NodeRef{o.block, o.slot * 8 + std::countr_zero(rest)}, in);
 }
 
-// --- .bt: two bits for each child of every inner node ---------------------------------------------------------------
+// --- .bt: two bits for each child of every inner node ---
 
 /// 00 unknown, 01 free, 10 occupied, 11 has children (high bit first); child i stands at bit 2 i.
 template <class NODE, class Occupied>

@@ -31,8 +31,7 @@ class OccupancyOcTreeBase : public OcTreeBaseImpl<NODE, AbstractOccupancyOcTree>
   explicit OccupancyOcTreeBase(double resolution) : Base(resolution) {}
   OccupancyOcTreeBase(const OccupancyOcTreeBase&) = default;
 
-  // --- whole scans
-  // ------------------------------------------------------------------------------------------------------
+  // --- whole scans ---
 
   /// Inserts a scan, each cell once: the cells that rays end in are hit, the other cells that rays cross are missed.
   /// Points and origin in the map's frame; rays are cut at `maxrange` (negative: no limit). `discretize` keeps one ray
@@ -66,8 +65,7 @@ class OccupancyOcTreeBase : public OcTreeBaseImpl<NODE, AbstractOccupancyOcTree>
   /// What became of the points of the last insertPointCloud or computeUpdate.
   const ScanCounts& lastScan() const { return last_scan_; }
 
-  // --- single cells
-  // -----------------------------------------------------------------------------------------------------
+  // --- single cells ---
 
   /// Adds to a cell's log-odds, within the clamping. Returns its node, or the pruned one that it became part of.
   NODE* updateNode(const OcTreeKey& key, float log_odds_update, bool lazy_eval = false) override;
@@ -113,8 +111,7 @@ class OccupancyOcTreeBase : public OcTreeBaseImpl<NODE, AbstractOccupancyOcTree>
   }
   void nodeToMaxLikelihood(NODE& node) const { nodeToMaxLikelihood(&node); }
 
-  // --- rays into the map
-  // ------------------------------------------------------------------------------------------------
+  // --- rays into the map ---
 
   /// Follows a ray until it enters an occupied cell: true, and `end` is that cell's centre. False, with `end` the
   /// centre of the cell where it stopped: beyond `maxRange` (> 0), in an unknown cell (unless ignored), at the border
@@ -122,8 +119,7 @@ class OccupancyOcTreeBase : public OcTreeBaseImpl<NODE, AbstractOccupancyOcTree>
   bool castRay(const point3d& origin, const point3d& direction, point3d& end, bool ignoreUnknown = false,
                double maxRange = -1.0) const;
 
-  // --- limits of insertPointCloud
-  // -----------------------------------------------------------------------------------------
+  // --- limits of insertPointCloud ---
 
   void useBBXLimit(bool enable) { use_bbx_limit_ = enable; }
   bool bbxSet() const { return use_bbx_limit_; }
@@ -146,8 +142,7 @@ class OccupancyOcTreeBase : public OcTreeBaseImpl<NODE, AbstractOccupancyOcTree>
   bool inBBX(const point3d& p) const { return box_.contains(p); }
   bool inBBX(const OcTreeKey& key) const { return box_.contains(key); }
 
-  // --- change detection
-  // ---------------------------------------------------------------------------------------------------
+  // --- change detection ---
 
   /// Remembers the cells that appear (true) or change between free and occupied (false) by updates of cells.
   void enableChangeDetection(bool enable) { use_change_detection_ = enable; }
@@ -157,8 +152,7 @@ class OccupancyOcTreeBase : public OcTreeBaseImpl<NODE, AbstractOccupancyOcTree>
   KeyBoolMap::const_iterator changedKeysEnd() const { return changed_keys_.end(); }
   std::size_t numChangesDetected() const { return changed_keys_.size(); }
 
-  // --- files
-  // --------------------------------------------------------------------------------------------------------------
+  // --- files ---
 
   std::istream& readBinaryData(std::istream& s) override;
   std::ostream& writeBinaryData(std::ostream& s) const override;
@@ -182,7 +176,7 @@ class OccupancyOcTreeBase : public OcTreeBaseImpl<NODE, AbstractOccupancyOcTree>
   ScanMasks mark(const Pointcloud& scan, const point3d& origin, double maxrange, bool discretize);
   void addTo(const ScanMasks& marks, KeySet& free_cells, KeySet& occupied_cells) const;
   template <class F>
-  NODE* changeCell(NodeRef leaf, const OcTreeKey& key, bool lazy_eval, F&& change);
+  NODE* changeCell(NodeRef deepest, const OcTreeKey& key, bool lazy_eval, F&& change);
   void noteChange(const OcTreeKey& key, bool created, bool flipped);
 
   bool use_bbx_limit_ = false;

@@ -3,13 +3,13 @@
 
 // Members of OccupancyOcTreeBase that are more than a line or two; included by occupancy_octree_base.hpp.
 
+#include "rhmap/core/region_cursor.hpp"
 #include "rhmap/octree/map_codec.hpp"
 #include "rhmap/octree/occupancy_octree_base.hpp"
 
 namespace rhmap {
 
-// --- whole scans
-// --------------------------------------------------------------------------------------------------------
+// --- whole scans ---
 
 template <class NODE>
 ScanMasks OccupancyOcTreeBase<NODE>::mark(const Pointcloud& scan, const point3d& origin, double maxrange,
@@ -85,17 +85,14 @@ void OccupancyOcTreeBase<NODE>::computeDiscreteUpdate(const Pointcloud& scan, co
   addTo(mark(scan, origin, maxrange, true), free_cells, occupied_cells);
 }
 
-// --- single cells
-// -------------------------------------------------------------------------------------------------------
+// --- single cells ---
 
-/// `leaf`: the cell's node if it exists at depth 16 already, else empty.
+/// `deepest`: the deepest node on the way to the cell that is there already.
 template <class NODE>
 template <class F>
-NODE* OccupancyOcTreeBase<NODE>::changeCell(NodeRef leaf, const OcTreeKey& key, bool lazy_eval, F&& change) {
-  bool created = false;
-  if (!leaf) {
-    leaf = structure::reach(*this->store_, key, kTreeDepth, created);
-  }
+NODE* OccupancyOcTreeBase<NODE>::changeCell(NodeRef deepest, const OcTreeKey& key, bool lazy_eval, F&& change) {
+  bool created;
+  const NodeRef leaf = structure::reach(*this->store_, deepest, key, kTreeDepth, created);
   NODE* node = this->store_->node(leaf);
   if (use_change_detection_) {
     const bool occupied_before = this->isNodeOccupied(node);
@@ -122,22 +119,18 @@ void OccupancyOcTreeBase<NODE>::noteChange(const OcTreeKey& key, bool created, b
 
 template <class NODE>
 NODE* OccupancyOcTreeBase<NODE>::updateNode(const OcTreeKey& key, float log_odds_update, bool lazy_eval) {
-  const NodeRef known = this->store_->search(key);
-  if (known) {
-    NODE* node = this->store_->node(known);
+  const NodeRef deepest = this->store_->deepest(key);
+  if (deepest && !this->store_->hasChildren(deepest)) {  // the cell, or a pruned leaf that holds it
+    NODE* node = this->store_->node(deepest);
     if (sensorModel().settled(node->getLogOdds(), log_odds_update)) return node;
   }
-  const bool is_cell = known && known.depth() == kTreeDepth;
-  return changeCell(is_cell ? known : NodeRef{}, key, lazy_eval,
-                    [&](NODE* node) { updateNodeLogOdds(node, log_odds_update); });
+  return changeCell(deepest, key, lazy_eval, [&](NODE* node) { updateNodeLogOdds(node, log_odds_update); });
 }
 
 template <class NODE>
 NODE* OccupancyOcTreeBase<NODE>::setNodeValue(const OcTreeKey& key, float log_odds_value, bool lazy_eval) {
   const float value = std::min(std::max(log_odds_value, this->clamping_thres_min), this->clamping_thres_max);
-  const NodeRef known = this->store_->search(key);
-  const bool is_cell = known && known.depth() == kTreeDepth;
-  return changeCell(is_cell ? known : NodeRef{}, key, lazy_eval, [&](NODE* node) { node->setLogOdds(value); });
+  return changeCell(this->store_->deepest(key), key, lazy_eval, [&](NODE* node) { node->setLogOdds(value); });
 }
 
 template <class NODE>
@@ -152,15 +145,15 @@ void OccupancyOcTreeBase<NODE>::toMaxLikelihood() {
   });
 }
 
-// --- rays into the map
-// --------------------------------------------------------------------------------------------------
+// --- rays into the map ---
 
 template <class NODE>
 bool OccupancyOcTreeBase<NODE>::castRay(const point3d& origin, const point3d& direction, point3d& end,
                                         bool ignoreUnknown, double maxRange) const {
   OcTreeKey key;
   if (!this->coordToKeyChecked(origin, key)) return false;
-  const NODE* start = this->search(key);
+  RegionCursor<NODE> cursor(*this->store_);
+  const NODE* start = cursor.search(key);
   if (start == nullptr ? !ignoreUnknown : this->isNodeOccupied(start)) {
     end = this->keyToCoord(key);
     return start != nullptr;
@@ -168,26 +161,30 @@ bool OccupancyOcTreeBase<NODE>::castRay(const point3d& origin, const point3d& di
   std::optional<Ray> ray = startCast(this->keys_, origin, key, unitVector(direction));
   if (!ray) return false;
 
-  const double max_squared = maxRange * maxRange;
+  const auto beyond = [&](const point3d& centre) {
+    double squared = 0.0;
+    for (unsigned i = 0; i < 3; ++i) squared += double((centre(i) - origin(i)) * (centre(i) - origin(i)));
+    return squared > maxRange * maxRange;
+  };
+  const auto stop = [&](bool hit) {
+    end = this->keyToCoord(ray->key);
+    return hit;
+  };
+  // A cell's centre is no farther from where the ray enters than a diagonal: up to here the range needs no test.
+  const double certainly_within = maxRange - (2 * this->getResolution() + 1e-5 * maxRange);
   for (;;) {
     const int axis = ray->nextAxis();
     const key_type k = ray->key[static_cast<unsigned>(axis)];
-    const bool at_border = ray->step[axis] < 0 ? k == 0 : k == 2 * kTreeMaxVal - 1;
-    if (!at_border) ray->advance(axis);
-    end = this->keyToCoord(ray->key);
-    if (at_border) return false;
-    if (maxRange > 0.0) {
-      double squared = 0.0;
-      for (unsigned i = 0; i < 3; ++i) squared += double((end(i) - origin(i)) * (end(i) - origin(i)));
-      if (squared > max_squared) return false;
-    }
-    const NODE* node = this->search(ray->key);
-    if (node == nullptr ? !ignoreUnknown : this->isNodeOccupied(node)) return node != nullptr;
+    if (ray->step[axis] < 0 ? k == 0 : k == 2 * kTreeMaxVal - 1) return stop(false);  // the border of the key space
+    const double entry = ray->t_max[axis];
+    ray->advance(axis);
+    if (maxRange > 0.0 && entry > certainly_within && beyond(this->keyToCoord(ray->key))) return stop(false);
+    const NODE* node = cursor.search(ray->key);
+    if (node == nullptr ? !ignoreUnknown : this->isNodeOccupied(node)) return stop(node != nullptr);
   }
 }
 
-// --- files
-// --------------------------------------------------------------------------------------------------------------
+// --- files ---
 
 template <class NODE>
 std::ostream& OccupancyOcTreeBase<NODE>::writeBinaryData(std::ostream& s) const {

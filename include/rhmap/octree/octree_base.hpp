@@ -71,7 +71,7 @@ class OcTreeBaseImpl : public INTERFACE {
   /// Edge length of a node at this depth [m].
   double getNodeSize(unsigned depth) const { return keys_.nodeSize(depth); }
 
-  // --- structure by node pointer ----------------------------------------------------------------------------------
+  // --- structure by node pointer ---
 
   NODE* getRoot() const { return nodeOrNull(store_->root()); }
   bool nodeChildExists(const NODE* node, unsigned child) const { return childrenOf(node).has(child); }
@@ -107,7 +107,7 @@ class OcTreeBaseImpl : public INTERFACE {
     return at && structure::prune(*store_, at);
   }
 
-  // --- search and deletion ------------------------------------------------------------------------------------------
+  // --- search and deletion ---
 
   /// The node at `depth` (0: cells, i.e. 16) or the shallower leaf that contains it; null where unknown.
   NODE* search(const OcTreeKey& key, unsigned depth = 0) const {
@@ -143,8 +143,7 @@ class OcTreeBaseImpl : public INTERFACE {
   /// Expands every leaf down to depth 16.
   void expand() override { structure::expandAll(*store_); }
 
-  // --- statistics
-  // -----------------------------------------------------------------------------------------------------
+  // --- statistics ---
 
   /// Number of nodes, inner ones included.
   std::size_t size() const override { return store_->size(); }
@@ -181,8 +180,7 @@ class OcTreeBaseImpl : public INTERFACE {
   void getMetricSize(double& x, double& y, double& z) override { spread(cachedBounds().size(), x, y, z); }
   void getMetricSize(double& x, double& y, double& z) const { spread(knownBounds().size(), x, y, z); }
 
-  // --- rays
-  // -------------------------------------------------------------------------------------------------------------
+  // --- rays ---
 
   /// Keys from the origin's cell (included) to the end's (not included); empty if they are the same. False if one of
   /// the points is outside of the tree.
@@ -197,14 +195,12 @@ class OcTreeBaseImpl : public INTERFACE {
   /// There are no ray buffers to clear; kept for code that calls it.
   void clearKeyRays() {}
 
-  // --- files
-  // ------------------------------------------------------------------------------------------------------------
+  // --- files ---
 
   std::istream& readData(std::istream& s) override;
   std::ostream& writeData(std::ostream& s) const override;
 
-  // --- iterators
-  // --------------------------------------------------------------------------------------------------------
+  // --- iterators ---
 
   iterator begin(unsigned char max_depth = 0) const { return iterator(this, max_depth); }
   iterator end() const { return {}; }
@@ -220,8 +216,7 @@ class OcTreeBaseImpl : public INTERFACE {
   tree_iterator begin_tree(unsigned char max_depth = 0) const { return tree_iterator(this, max_depth); }
   tree_iterator end_tree() const { return {}; }
 
-  // --- keys and coordinates
-  // ---------------------------------------------------------------------------------------------
+  // --- keys and coordinates ---
 
   key_type coordToKey(double x) const { return keys_.coordToKey(x); }
   key_type coordToKey(double x, unsigned depth) const { return keys_.coordToKey(x, depth); }
@@ -257,7 +252,7 @@ class OcTreeBaseImpl : public INTERFACE {
   point3d keyToCoord(const OcTreeKey& key) const { return keys_.keyToCoord(key); }
   point3d keyToCoord(const OcTreeKey& key, unsigned depth) const { return keys_.keyToCoord(key, depth); }
 
-  // --- for code that works on the structure itself ------------------------------------------------------------------
+  // --- for code that works on the structure itself ---
 
   const BlockStore<NODE>& store() const { return *store_; }
   const KeySpace& keySpace() const { return keys_; }

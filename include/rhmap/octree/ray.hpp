@@ -21,13 +21,27 @@ struct Ray {
   /// The axis along which the ray leaves the current cell: z before x and y, y before x where they tie.
   int nextAxis() const { return t_max[0] < t_max[1] ? (t_max[0] < t_max[2] ? 0 : 2) : (t_max[1] < t_max[2] ? 1 : 2); }
 
+  /// To the next cell along an axis. A branch for each axis, so that the ray stays in registers: an index known only at
+  /// run time would send it through memory at every step.
   void advance(int axis) {
-    key[static_cast<unsigned>(axis)] = static_cast<key_type>(key[static_cast<unsigned>(axis)] + step[axis]);
-    t_max[axis] += t_delta[axis];
+    if (axis == 0) {
+      advanceAlong<0>();
+    } else if (axis == 1) {
+      advanceAlong<1>();
+    } else {
+      advanceAlong<2>();
+    }
   }
 
   /// Distance [m] at which the ray leaves the current cell.
   double exitDistance() const { return std::min(std::min(t_max[0], t_max[1]), t_max[2]); }
+
+ private:
+  template <unsigned AXIS>
+  void advanceAlong() {
+    key[AXIS] = static_cast<key_type>(key[AXIS] + step[AXIS]);
+    t_max[AXIS] += t_delta[AXIS];
+  }
 };
 
 /// A ray that ends: OctoMap's computeRayKeys.

@@ -59,7 +59,7 @@ class ScanApplier {
       const NodeRef deepest = store_.deepest(corner);
       if (deepest && !store_.hasChildren(deepest) && !keepUnsettled(store_.node(deepest)->getLogOdds())) return nullptr;
       bool new_cell;
-      const NodeRef cell = structure::reach(store_, corner, kTreeDepth - 3, new_cell);
+      const NodeRef cell = structure::reach(store_, deepest, corner, kTreeDepth - 3, new_cell);
       if (new_cell) {
         fresh = markedOctants();
         return store_.createChildren(cell, static_cast<std::uint8_t>(fresh)).block;

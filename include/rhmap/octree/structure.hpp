@@ -51,6 +51,12 @@ bool prune(BlockStore<NODE>& store, NodeRef at) {
   return true;
 }
 
+/// Recomputes a node from its children, of which `child` is one.
+template <class NODE>
+void recompute(BlockStore<NODE>& store, NodeRef parent, NodeRef child) {
+  store.node(parent)->updateOccupancyChildren(store.octet(child.block, child.slot >> 3));
+}
+
 /// OctoMap's rule on the way up from a child: eight equal leaves become their parent, else the parent is recomputed
 /// from its children. True if it was pruned.
 template <class NODE>
@@ -60,7 +66,7 @@ bool summarise(BlockStore<NODE>& store, NodeRef parent, NodeRef child) {
     collapse(store, parent, octet);
     return true;
   }
-  store.node(parent)->updateOccupancyChildren(store.octet(octet.block, octet.slot));
+  recompute(store, parent, child);
   return false;
 }
 
@@ -68,8 +74,15 @@ bool summarise(BlockStore<NODE>& store, NodeRef parent, NodeRef child) {
 template <class NODE>
 NodeRef summariseAbove(BlockStore<NODE>& store, NodeRef child) {
   NodeRef pruned;
+  bool pruning = true;
   while (const NodeRef parent = store.parent(child)) {
-    if (summarise(store, parent, child)) pruned = parent;
+    // The first that keeps its children keeps those above it from being pruned.
+    if (pruning) {
+      pruning = summarise(store, parent, child);
+      if (pruning) pruned = parent;
+    } else {
+      recompute(store, parent, child);
+    }
     child = parent;
   }
   return pruned;
@@ -88,11 +101,12 @@ inline int childNumber(NodeRef at, const OcTreeKey& key) {
   return (key[0] >> bit & 1) | (key[1] >> bit & 1) << 1 | (key[2] >> bit & 1) << 2;
 }
 
-/// Makes the way down to depth `depth` exist: a pruned leaf is expanded, a missing node is made with the default value.
-/// `fresh` tells whether the node returned is new and not a copy of a pruned leaf.
+/// Makes the way down to depth `depth` exist, from the deepest node that is there (or none): a pruned leaf is expanded,
+/// a missing node is made with the default value. `fresh` tells whether the node returned is new and not a copy of a
+/// pruned leaf.
 template <class NODE>
-NodeRef reach(BlockStore<NODE>& store, const OcTreeKey& key, unsigned depth, bool& fresh) {
-  NodeRef at = store.deepest(key);
+NodeRef reach(BlockStore<NODE>& store, NodeRef deepest, const OcTreeKey& key, unsigned depth, bool& fresh) {
+  NodeRef at = deepest;
   fresh = !at;
   if (!at) at = store.createRoot();
   while (at.depth() < depth) {

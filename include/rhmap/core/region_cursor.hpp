@@ -1,0 +1,37 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <cstdint>
+#include <limits>
+
+#include "rhmap/core/block_store.hpp"
+
+namespace rhmap {
+
+/// Searches cells one after the other, and remembers the last region: for paths, where most steps stay in it. Lives in
+/// one function of one thread, while the map does not change.
+template <class NODE>
+class RegionCursor {
+ public:
+  explicit RegionCursor(const BlockStore<NODE>& store) : store_(store) {}
+
+  /// BlockStore::search at depth 16: the cell or the leaf that contains it, null where unknown.
+  const NODE* search(const OcTreeKey& key) {
+    if (const std::uint64_t name = blockKey(key, kRegionLevel); name != name_) {
+      name_ = name;
+      region_ = store_.findRegion(key);
+      if (region_ == nullptr) whole_ = nodeOrNull(store_.search(key, kTreeDepth - 3));
+    }
+    return region_ == nullptr ? whole_ : nodeOrNull(store_.searchIn(region_, cellIndex(key, kRegionLevel)));
+  }
+
+ private:
+  const NODE* nodeOrNull(NodeRef at) const { return at ? store_.node(at) : nullptr; }
+
+  const BlockStore<NODE>& store_;
+  std::uint64_t name_ = std::numeric_limits<std::uint64_t>::max();
+  Block* region_ = nullptr;      // null: there is none here, and
+  const NODE* whole_ = nullptr;  // this leaf, or nothing, stands for all its cells
+};
+
+}  // namespace rhmap
