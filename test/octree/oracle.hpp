@@ -1,24 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-// Stock OctoMap as the oracle: its own templates, made quiet, with OctoMap 1.10's answers where the installed 1.9.7
-// gives others (the box limit of insertPointCloud, issue OctoMap/octomap#358).
-#include <octomap/octomap_types.h>
-
+// Stock OctoMap as the oracle, with OctoMap 1.10's answers where the installed 1.9.7 gives others (the box limit of
+// insertPointCloud, issue OctoMap/octomap#358).
 #undef _OPENMP  // with it OctoMap's insertPointCloudRays updates in an order that differs from run to run
-#undef OCTOMAP_WARNING_STR
-#undef OCTOMAP_WARNING
-#undef OCTOMAP_ERROR_STR
-#undef OCTOMAP_ERROR
-#undef OCTOMAP_DEBUG
-#define OCTOMAP_WARNING_STR(args) static_cast<void>(0)
-#define OCTOMAP_WARNING(...) static_cast<void>(0)
-#define OCTOMAP_ERROR_STR(args) static_cast<void>(0)
-#define OCTOMAP_ERROR(...) static_cast<void>(0)
-#define OCTOMAP_DEBUG(...) static_cast<void>(0)
-
-#include <octomap/OcTreeNode.h>
-#include <octomap/OccupancyOcTreeBase.h>
+#include "../../src/baseline/quiet_octomap.hpp"
 
 #include <sstream>
 #include <string>
@@ -37,14 +23,13 @@ class OracleNode : public octomap::OcTreeNode {
   }
 };
 
-class OctomapOracle : public octomap::OccupancyOcTreeBase<OracleNode> {
-  using Base = octomap::OccupancyOcTreeBase<OracleNode>;
+class OctomapOracle : public QuietOctomap<OracleNode> {
+  using Base = QuietOctomap<OracleNode>;
 
  public:
   explicit OctomapOracle(double resolution) : Base(resolution) {}
 
   OctomapOracle* create() const override { return new OctomapOracle(resolution); }
-  std::string getTreeType() const override { return "OcTree"; }
 
   using Base::insertPointCloud;
   void insertPointCloud(const octomap::Pointcloud& scan, const octomap::point3d& origin, double maxrange = -1.,
@@ -86,19 +71,6 @@ class OctomapOracle : public octomap::OccupancyOcTreeBase<OracleNode> {
   // 1.9.7 takes these by non-const reference.
   void setBBXMin(octomap::point3d min) { Base::setBBXMin(min); }
   void setBBXMax(octomap::point3d max) { Base::setBBXMax(max); }
-
-  // Without the message that the library's own function prints.
-  bool writeBinaryConst(std::ostream& s) const {
-    s << binaryFileHeader << "\n# (feel free to add / change comments, but leave the first line as it is!)\n#\n"
-      << "id " << getTreeType() << "\nsize " << size() << "\nres " << getResolution() << "\ndata\n";
-    writeBinaryData(s);
-    return s.good();
-  }
-  bool writeBinary(std::ostream& s) {
-    toMaxLikelihood();
-    prune();
-    return writeBinaryConst(s);
-  }
 };
 
 /// The map as a .ot file.

@@ -1,12 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// OctoMap, compiled here with -O3 -DNDEBUG (see CMakeLists.txt). octomap::OcTree itself would not do: its members are
-// weak symbols that liboctomap.so has too, in Debian at -O2 and with asserts, and the linker picks one. A node type in
-// an anonymous namespace makes an instantiation that nobody else can replace.
+// OctoMap, compiled here with -O3 -DNDEBUG (see CMakeLists.txt).
 #include <cfloat>
 
-#include <octomap/OcTreeNode.h>
-#include <octomap/OccupancyOcTreeBase.h>
-
+#include "quiet_octomap.hpp"
 #include "tree_library.hpp"
 
 // What is no template in a node; a definition in the program goes before that in the library. It makes OctoMap a little
@@ -38,17 +34,10 @@ namespace {
 /// OctoMap's node under a name of our own.
 class Node final : public octomap::OcTreeNode {};
 
-/// octomap::OcTree in all but the name of its node.
-class Tree final : public octomap::OccupancyOcTreeBase<Node> {
- public:
-  explicit Tree(double resolution) : OccupancyOcTreeBase(resolution) {}
-
-  Tree* create() const override { return new Tree(resolution); }
-  std::string getTreeType() const override { return "OcTree"; }
-};
-
 }  // namespace
 
-std::unique_ptr<Library> makeOctomap(double resolution) { return std::make_unique<TreeLibrary<Tree>>(resolution); }
+std::unique_ptr<Library> makeOctomap(double resolution) {
+  return std::make_unique<TreeLibrary<QuietOctomap<Node>>>(resolution);
+}
 
 }  // namespace rhmap::bench
