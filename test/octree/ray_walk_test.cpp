@@ -4,6 +4,8 @@
 #include <gtest/gtest.h>
 #include <hwy/targets.h>
 
+#include <algorithm>
+#include <limits>
 #include <map>
 #include <memory>
 #include <random>
@@ -120,6 +122,32 @@ std::vector<std::int64_t> targetsHere() {
 }
 INSTANTIATE_TEST_SUITE_P(Targets, RayWalkOn, testing::ValuesIn(targetsHere()),
                          [](const auto& info) { return hwy::TargetName(info.param); });
+
+TEST(RayKeys, AreOctomapsAlsoWhereARayMeetsEdgesAndCorners) {
+  std::mt19937 random(8);
+  for (const double resolution : {0.05, 0.1, 0.25}) {
+    OcTree ours(resolution);
+    test::OctomapOracle theirs(resolution);
+    for (const point3d& origin :
+         {point3d(0, 0, 0), ours.keyToCoord(OcTreeKey(32768, 32768, 32768)), point3d(1.3F, -2, 5)}) {
+      const octomap::Pointcloud ends = difficultEnds(origin, resolution, random);
+      ours.insertPointCloud(ends, origin);
+      theirs.insertPointCloud(ends, origin);
+      KeyRay a, b;
+      for (const point3d& end : ends) {
+        ASSERT_EQ(ours.computeRayKeys(origin, end, a), theirs.computeRayKeys(origin, end, b)) << end;
+        ASSERT_EQ(a.size(), b.size()) << end;
+        ASSERT_TRUE(std::equal(a.begin(), a.end(), b.begin())) << end;
+        for (const bool ignore : {false, true}) {
+          point3d hit_a(9, 9, 9), hit_b(9, 9, 9);
+          ASSERT_EQ(ours.castRay(origin, end - origin, hit_a, ignore, 37.3 * resolution),
+                    theirs.castRay(origin, end - origin, hit_b, ignore, 37.3 * resolution));
+          ASSERT_EQ(hit_a, hit_b) << end;
+        }
+      }
+    }
+  }
+}
 
 TEST(ScanMarking, CountsPointsThatAreNotFiniteOrOutside) {
   OcTree map(0.1);
