@@ -298,6 +298,23 @@ TEST(Difference, DeletingAnInnerNodeDeletesWhatIsBelowAndCountsIt) {
   EXPECT_EQ(nodes, 17U);
 }
 
+TEST(Difference, EditsByPointerThatMakeNoSenseChangeNothing) {
+  OcTree map(0.1);
+  OcTreeNode* cell = map.updateNode(OcTreeKey(32768, 32768, 32768), true);
+  OcTreeNode* parent = map.search(OcTreeKey(32768, 32768, 32768), 15);
+  OcTreeNode* coarse = map.search(OcTreeKey(32768, 32768, 32768), 13);
+  const std::string before = test::otBytes(map);
+  EXPECT_EQ(map.createNodeChild(cell, 0), nullptr);
+  EXPECT_EQ(map.createNodeChild(parent, 0), cell);
+  map.deleteNodeChild(cell, 0);
+  map.deleteNodeChild(parent, 5);
+  for (OcTreeNode* node : {cell, parent, coarse, map.getRoot()}) {
+    map.expandNode(node);
+    EXPECT_FALSE(map.pruneNode(node));
+  }
+  EXPECT_TRUE(test::otBytes(map) == before);
+}
+
 TEST(Difference, BoundsFollowTheNodesThroughSwapContent) {
   OcTree a(0.1), b(0.1);
   a.updateNode(1.0, 1.0, 1.0, true);

@@ -80,14 +80,16 @@ class OcTreeBaseImpl : public INTERFACE {
   NODE* getNodeChild(NODE* node, unsigned child) const { return childrenOf(node).nodes + child; }
   const NODE* getNodeChild(const NODE* node, unsigned child) const { return childrenOf(node).nodes + child; }
 
-  /// Makes a child that does not exist yet. Not below depth 16: null.
+  /// Makes a child, or returns the one that is there already. Not below depth 16: null.
   NODE* createNodeChild(NODE* node, unsigned child) {
     const NodeRef at = store_->locate(node);
     if (!at) return nullptr;
+    if (const Octet<NODE> children = store_->children(at); children.has(child)) return children.nodes + child;
     return store_->node(store_->createChild(at, static_cast<int>(child)));
   }
-  /// Removes a child and all below it.
+  /// Removes a child and all below it. Does nothing where there is none.
   void deleteNodeChild(NODE* node, unsigned child) {
+    if (!nodeChildExists(node, child)) return;
     const NodeRef octet = store_->childOctetOf(store_->locate(node));
     store_->removeSubtree({octet.block, octet.slot * 8 + static_cast<int>(child)});
   }
@@ -97,9 +99,9 @@ class OcTreeBaseImpl : public INTERFACE {
     const NodeRef at = store_->locate(node);
     return at && structure::isCollapsible(*store_, at);
   }
-  /// Gives a leaf eight children with its data. Does nothing at depth 16.
+  /// Gives a leaf eight children with its data. Does nothing at depth 16 or where there are children.
   void expandNode(NODE* node) {
-    if (const NodeRef at = store_->locate(node)) structure::expand(*store_, at);
+    if (const NodeRef at = store_->locate(node); at && !store_->hasChildren(at)) structure::expand(*store_, at);
   }
   /// Replaces eight equal leaf children by this node; false if it is not collapsible.
   bool pruneNode(NODE* node) {
