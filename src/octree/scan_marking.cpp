@@ -7,6 +7,7 @@
 #include <cmath>
 #include <exception>
 #include <memory>
+#include <optional>
 #include <utility>
 #include <vector>
 
@@ -18,8 +19,9 @@ namespace {
 
 bool isFinite(const point3d& p) { return std::isfinite(p.x()) && std::isfinite(p.y()) && std::isfinite(p.z()); }
 
-/// Masks for all cells that the rays of this scan can reach.
-ScanMasks masksFor(const KeySpace& keys, const octomap::Pointcloud& scan, const point3d& origin, double max_range) {
+/// First and last key along each axis that the rays of this scan can reach; nothing if that may be outside of the tree.
+std::optional<std::pair<OcTreeKey, OcTreeKey>> reachOf(const KeySpace& keys, const octomap::Pointcloud& scan,
+                                                       const point3d& origin, double max_range) {
   constexpr int kMargin = 8;  // cells: a ray may miss its end by a rounding, and leave the box by a cell
   OcTreeKey min, max;
   for (unsigned axis = 0; axis < 3; ++axis) {
@@ -35,9 +37,9 @@ ScanMasks masksFor(const KeySpace& keys, const octomap::Pointcloud& scan, const 
     }
     const double margin = kMargin * keys.resolution();
     if (!keys.coordToKeyChecked(low - margin, min[axis]) || !keys.coordToKeyChecked(high + margin, max[axis]))
-      return {};
+      return std::nullopt;
   }
-  return {min, max};
+  return std::pair(min, max);
 }
 
 /// Marks part of a scan: one thread's work.
@@ -103,8 +105,9 @@ ScanMasks markScan(const KeySpace& keys, const octomap::Pointcloud& scan, const 
   const auto parts = static_cast<std::size_t>(config.num_threads < 1 ? 1 : config.num_threads);
   std::vector<Marker> markers;
   markers.reserve(parts);
+  const auto reach = reachOf(keys, scan, origin, config.max_range);
   for (std::size_t i = 0; i < parts; ++i)
-    markers.emplace_back(keys, origin, config, masksFor(keys, scan, origin, config.max_range));
+    markers.emplace_back(keys, origin, config, reach ? ScanMasks(reach->first, reach->second) : ScanMasks());
 
   std::exception_ptr error;
 #pragma omp parallel for num_threads(static_cast <int>(parts)) if (parts > 1)

@@ -2,9 +2,7 @@
 #pragma once
 
 #include <array>
-#include <bit>
 #include <cstdint>
-#include <cstring>
 
 #include "rhmap/core/key.hpp"
 
@@ -52,11 +50,6 @@ struct alignas(128) Block {
 
   bool has(int slot) const { return mask[static_cast<unsigned>(slot) >> 3] >> (slot & 7) & 1; }
 
-  /// Existence bits of the 64 cells under top node t, Morton order.
-  std::uint64_t cells(int t) const { return word(t); }
-  /// Existence bits of the 64 middle nodes.
-  std::uint64_t middles() const { return word(8); }
-
   unsigned depth(int slot) const { return static_cast<unsigned>(3 * level + depthStep(slot)); }
 
   /// Smallest key of the node in a slot.
@@ -66,14 +59,6 @@ struct alignas(128) Block {
     return {static_cast<key_type>(corner[0] + (gather3(cell) << shift)),
             static_cast<key_type>(corner[1] + (gather3(cell >> 1) << shift)),
             static_cast<key_type>(corner[2] + (gather3(cell >> 2) << shift))};
-  }
-
- private:
-  std::uint64_t word(int i) const {
-    static_assert(std::endian::native == std::endian::little, "mask bytes are read as little-endian words");
-    std::uint64_t w;
-    std::memcpy(&w, mask.data() + 8 * i, sizeof w);
-    return w;
   }
 };
 static_assert(sizeof(Block) == 384);

@@ -46,14 +46,10 @@ class BlockIndex {
     --size_;
   }
 
-  /// Forgets everything; the memory stays for reuse when `keep_memory`.
-  void clear(bool keep_memory = false) {
-    if (keep_memory) {
-      entries_.assign(entries_.size(), Entry{});
-    } else {
-      entries_ = decltype(entries_)();
-      shift_ = 64;
-    }
+  /// Forgets everything and gives the memory back.
+  void clear() {
+    entries_ = decltype(entries_)();
+    shift_ = 64;
     size_ = 0;
   }
 

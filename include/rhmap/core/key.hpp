@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <cstddef>  // OcTreeKey.h uses this and <vector> without including them
 #include <cstdint>
-#include <vector>  // OcTreeKey.h uses it without including it
+#include <vector>
 
 #include <octomap/OcTreeKey.h>
 #include <octomap/octomap_types.h>
@@ -47,13 +48,6 @@ inline std::uint64_t blockKey(const OcTreeKey& key, int level) {
   const int shift = cellShift(level) + 3;
   const auto part = [shift](key_type k) { return static_cast<std::uint64_t>(k >> shift); };
   return part(key[0]) | part(key[1]) << 13 | part(key[2]) << 26 | static_cast<std::uint64_t>(level) << 39;
-}
-
-/// Smallest key of the node at `depth` that holds `key`.
-inline OcTreeKey lowerCorner(const OcTreeKey& key, unsigned depth) {
-  const auto mask = static_cast<key_type>(0xffffU << (kTreeDepth - depth));
-  return {static_cast<key_type>(key[0] & mask), static_cast<key_type>(key[1] & mask),
-          static_cast<key_type>(key[2] & mask)};
 }
 
 /// OctoMap's name for a node: the key of its centre. Leaves at depth 16 are named by themselves, larger nodes by the
