@@ -8,8 +8,11 @@
 
 #include "rhmap/core/atomic_file.hpp"
 #include "rhmap/octree/abstract_occupancy_octree.hpp"
+#include "rhmap/octree/color_octree.hpp"
+#include "rhmap/octree/counting_octree.hpp"
 #include "rhmap/octree/map_file.hpp"
 #include "rhmap/octree/octree.hpp"
+#include "rhmap/octree/stamped_octree.hpp"
 
 namespace rhmap {
 namespace {
@@ -17,7 +20,12 @@ namespace {
 /// Prototypes by id. Our own types are in it from the start, so that nothing hangs on the order of static objects.
 class TreeTypes {
  public:
-  TreeTypes() { add(std::make_unique<OcTree>(0.1)); }
+  TreeTypes() {
+    add(std::make_unique<OcTree>(0.1));
+    add(std::make_unique<ColorOcTree>(0.1));
+    add(std::make_unique<OcTreeStamped>(0.1));
+    add(std::make_unique<CountingOcTree>(0.1));
+  }
 
   void add(std::unique_ptr<AbstractOcTree> prototype) {
     const std::lock_guard lock(mutex_);

@@ -42,6 +42,23 @@ std::optional<std::pair<OcTreeKey, OcTreeKey>> reachOf(const KeySpace& keys, con
   return std::pair(min, max);
 }
 
+/// What OctoMap makes of a point: a ray that frees the cells on its way, and the cell that is hit.
+struct PointRay {
+  point3d end;
+  std::optional<OcTreeKey> hit;
+};
+
+/// Nothing for a point that is not finite.
+std::optional<PointRay> rayOf(const KeySpace& keys, const point3d& p, const point3d& origin,
+                              const ScanMarkingConfig& config) {
+  if (!isFinite(p)) return std::nullopt;
+  const bool in_range = config.max_range < 0.0 || distance(origin, p) <= config.max_range;
+  PointRay ray{in_range ? p : cutAt(origin, p, config.max_range), std::nullopt};
+  OcTreeKey key;
+  if (in_range && (config.box == nullptr || config.box->contains(p)) && keys.coordToKeyChecked(p, key)) ray.hit = key;
+  return ray;
+}
+
 /// Marks part of a scan: one thread's work.
 class Marker {
  public:
@@ -50,17 +67,14 @@ class Marker {
 
   void add(const point3d& p) {
     ++counts_.points;
-    if (!isFinite(p)) {
+    const std::optional<PointRay> ray = rayOf(keys_, p, origin_, config_);
+    if (!ray) {
       ++counts_.not_finite;
       return;
     }
-    const bool in_range = config_.max_range < 0.0 || distance(origin_, p) <= config_.max_range;
-    const point3d end = in_range ? p : cutAt(origin_, p, config_.max_range);
-    const bool crossed = config_.box == nullptr ? free(end) : freeInBox(end, *config_.box);
+    const bool crossed = config_.box == nullptr ? free(ray->end) : freeInBox(ray->end, *config_.box);
     if (!crossed) ++counts_.outside;
-    OcTreeKey key;
-    if (in_range && (config_.box == nullptr || config_.box->contains(p)) && keys_.coordToKeyChecked(p, key))
-      masks_.markHit(key);
+    if (ray->hit) masks_.markHit(*ray->hit);
   }
 
   void finish() {
@@ -132,10 +146,31 @@ ScanMasks markScan(const KeySpace& keys, const octomap::Pointcloud& scan, const 
   return std::move(markers[0].masks());
 }
 
+ScanCells collectScan(const KeySpace& keys, const octomap::Pointcloud& scan, const point3d& origin,
+                      const ScanMarkingConfig& config, ScanCounts& counts) {
+  ScanCells cells;
+  std::vector<OcTreeKey> crossed;
+  for (const point3d& p : scan) {
+    ++counts.points;
+    const std::optional<PointRay> ray = rayOf(keys, p, origin, config);
+    if (!ray) {
+      ++counts.not_finite;
+      continue;
+    }
+    crossed.clear();
+    if (!forEachRayKey(keys, origin, ray->end, [&](const OcTreeKey& key) { crossed.push_back(key); })) ++counts.outside;
+    const auto leaves_box = [&](const OcTreeKey& key) { return config.box != nullptr && !config.box->contains(key); };
+    cells.free.insert(crossed.begin(), std::find_if(crossed.begin(), crossed.end(), leaves_box));
+    if (ray->hit) cells.occupied.insert(*ray->hit);
+  }
+  std::erase_if(cells.free, [&](const OcTreeKey& key) { return cells.occupied.contains(key); });
+  return cells;
+}
+
 octomap::Pointcloud discretize(const KeySpace& keys, const octomap::Pointcloud& scan, ScanCounts& counts) {
   octomap::Pointcloud centres;
   centres.reserve(scan.size());
-  KeySet seen;
+  std::unordered_set<OcTreeKey, OcTreeKey::KeyHash> seen;
   for (const point3d& p : scan) {
     if (!isFinite(p)) {
       ++counts.points;

@@ -46,6 +46,7 @@ struct alignas(128) Block {
   std::uint8_t level;                      ///< 0 (root) ... 5 (region)
   OcTreeKey corner;                        ///< smallest key inside
   std::array<OctetRef, kOctets> octet;     ///< valid where mask[o] != 0
+  std::uint32_t stamp;                     ///< when it was last noted as changed, see BlockJournal
   Block* parent;                           ///< holds the cell above this block; null at level 0
 
   bool has(int slot) const { return mask[static_cast<unsigned>(slot) >> 3] >> (slot & 7) & 1; }
@@ -62,6 +63,16 @@ struct alignas(128) Block {
   }
 };
 static_assert(sizeof(Block) == 384);
+
+/// Level of the block with this blockKey().
+inline int blockLevel(std::uint64_t block_key) { return static_cast<int>(block_key >> 39); }
+
+/// Smallest key in the block with this blockKey().
+inline OcTreeKey blockCorner(std::uint64_t block_key) {
+  const int shift = cellShift(blockLevel(block_key)) + 3;
+  const auto axis = [=](int first_bit) { return static_cast<key_type>((block_key >> first_bit & 0x1fff) << shift); };
+  return {axis(0), axis(13), axis(26)};
+}
 
 /// A node's place. Empty (block null) where there is none.
 struct NodeRef {

@@ -9,6 +9,7 @@
 
 #include "rhmap/core/block.hpp"
 #include "rhmap/core/block_index.hpp"
+#include "rhmap/core/block_journal.hpp"
 #include "rhmap/core/block_pool.hpp"
 #include "rhmap/core/octet_pool.hpp"
 
@@ -44,7 +45,8 @@ class BlockStore {
   // --- finding ---
 
   /// The block of this level around `key`, or null.
-  Block* findBlock(const OcTreeKey& key, int level) const { return index_.find(blockKey(key, level)); }
+  Block* findBlock(const OcTreeKey& key, int level) const { return findBlock(blockKey(key, level)); }
+  Block* findBlock(std::uint64_t block_key) const { return index_.find(block_key); }
   /// The region around `key`, or null.
   Block* findRegion(const OcTreeKey& key) const { return findBlock(key, kRegionLevel); }
 
@@ -154,6 +156,7 @@ class BlockStore {
 
   /// Makes nodes of an existing or new octet of a block: `bits` must not exist yet. Returns the octet's nodes.
   NODE* createNodes(Block* block, int number, std::uint8_t bits) {
+    touch(block);
     if (block->mask[number] == 0) {
       const bool leaves = block->level == kRegionLevel && number < kMiddleOctet;
       block->octet[number] = leaves ? nodes_.allocateLeaves() : nodes_.allocateInner(block, number);
@@ -180,6 +183,7 @@ class BlockStore {
 
   /// Removes childless nodes of one octet, and the block with them if nothing is left in it.
   void removeNodes(Block* block, int number, std::uint8_t bits) {
+    touch(block);
     NODE* nodes = nodes_.nodes(block->octet[number]);
     for (unsigned rest = bits; rest != 0; rest &= rest - 1) nodes[std::countr_zero(rest)].~NODE();
     block->mask[number] = static_cast<std::uint8_t>(block->mask[number] & ~bits);
@@ -208,6 +212,7 @@ class BlockStore {
   }
 
   void clear() {
+    touchAll();
     index_.forEach([&](Block& block) {
       for (int o = 0; o < kOctets; ++o)
         if (block.mask[o] != 0) destroyOctet(octet(&block, o));
@@ -228,6 +233,23 @@ class BlockStore {
     size_ = other.size_;
   }
 
+  // --- being observed ---
+
+  /// To be called where values of existing nodes change; making and removing nodes calls it by itself.
+  void touch(Block* block) {
+    if (!journal_.isNoted(block->stamp))
+      journal_.note(blockKey(block->corner, block->level), block->stamp, index_.size());
+  }
+  /// To be called where values change in very many blocks.
+  void touchAll() { journal_.noteAll(); }
+
+  /// From now on changes are noted for this observer; what it takes first is everything.
+  BlockObserver observe() const { return journal_.observe(); }
+  /// What has changed since this observer of this store last asked.
+  BlockChanges takeChanges(const BlockObserver& observer) const { return journal_.take(observer, index_.size()); }
+  /// For stores that change places: lets each observer stay at its place, where everything has changed then.
+  void swapObservers(BlockStore& other) { journal_.swapObservers(other.journal_); }
+
   std::size_t memoryUsage() const { return nodes_.memoryUsage() + blocks_.memoryUsage() + index_.memoryUsage(); }
 
   /// Visits all blocks, in no particular order.
@@ -237,6 +259,12 @@ class BlockStore {
   }
 
  private:
+  /// For nodes on their own: the children of the node that has this address inside it.
+  static NodeChildren childrenAround(const void* store, const void* node) {
+    const Octet<NODE> octet = static_cast<const BlockStore*>(store)->children(OctetPool<NODE>::locate(node));
+    return {octet.nodes, sizeof(NODE), octet.mask};
+  }
+
   static void destroyOctet(Octet<NODE> o) {
     if constexpr (!std::is_trivially_destructible_v<NODE>)
       for (unsigned i = 0; i < 8; ++i)
@@ -253,6 +281,7 @@ class BlockStore {
     block->mask.fill(0);
     block->level = static_cast<std::uint8_t>(level);
     block->corner = corner;
+    block->stamp = 0;
     block->parent = parent;
     index_.insert(blockKey(corner, level), block);
     return block;
@@ -275,10 +304,11 @@ class BlockStore {
 
   BlockIndex<Block> index_;
   BlockPool blocks_;
-  OctetPool<NODE> nodes_;
+  OctetPool<NODE> nodes_{this, childrenAround};
   Block* root_ = nullptr;
   std::size_t size_ = 0;
   std::uint64_t version_ = 0;
+  mutable BlockJournal journal_;  // who observes is no part of the map
 };
 
 }  // namespace rhmap

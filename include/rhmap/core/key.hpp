@@ -20,7 +20,6 @@ namespace rhmap {
 
 using octomap::key_type;
 using octomap::KeyRay;
-using octomap::KeySet;
 using octomap::OcTreeKey;
 using octomap::point3d;
 

@@ -12,6 +12,7 @@
 #include <vector>
 
 #include "rhmap/core/block.hpp"
+#include "rhmap/core/node_children.hpp"
 
 namespace rhmap {
 
@@ -23,7 +24,9 @@ namespace rhmap {
 template <class NODE>
 class OctetPool {
  public:
-  OctetPool() = default;
+  /// Of a store whose nodes are asked for their children by `children`.
+  explicit OctetPool(const void* store = nullptr, NodeChildren (*children)(const void*, const void*) = nullptr)
+      : store_(store), children_(children) {}
   OctetPool(const OctetPool&) = delete;
   OctetPool& operator=(const OctetPool&) = delete;
   ~OctetPool() { clear(); }
@@ -51,19 +54,22 @@ class OctetPool {
            std::size_t{8} * (ref & kIndexMask);
   }
 
-  /// Where a node of this pool sits; empty for a depth-16 leaf.
-  static NodeRef locate(const NODE* node) {
-    auto* slab = reinterpret_cast<Slab*>(reinterpret_cast<std::uintptr_t>(node) & ~std::uintptr_t{kSlabBytes - 1});
+  /// Where a node of this pool sits, by an address inside the node; empty for a depth-16 leaf.
+  static NodeRef locate(const void* node) {
+    const SlabHeader* slab = SlabHeader::around(node);
     if (!slab->inner) return {};
-    const auto* first = reinterpret_cast<const NODE*>(reinterpret_cast<const char*>(slab) + kHeaderBytes);
-    const auto index = static_cast<std::size_t>(node - first);
+    const char* first = reinterpret_cast<const char*>(slab) + kHeaderBytes;
+    const auto index = static_cast<std::size_t>(static_cast<const char*>(node) - first) / sizeof(NODE);
     const std::uintptr_t tagged = owner(slab, index / 8);
     return {reinterpret_cast<Block*>(tagged & ~std::uintptr_t{127}), static_cast<int>((tagged & 127) * 8 + index % 8)};
   }
 
   /// Frees all slabs; the nodes must have been destroyed.
   void clear() {
-    for (Slab* slab : slabs_) ::operator delete (slab, std::align_val_t{kSlabBytes});
+    for (SlabHeader* slab : slabs_) {
+      removeSlab(slab);
+      ::operator delete (slab, std::align_val_t{kSlabBytes});
+    }
     slabs_ = decltype(slabs_)();
     leaves_ = Kind{false};
     inner_ = Kind{true};
@@ -81,17 +87,11 @@ class OctetPool {
  private:
   static constexpr std::size_t kOctetBytes = 8 * sizeof(NODE);
   static constexpr std::size_t kHeaderBytes = std::max<std::size_t>(64, alignof(NODE));
-  static constexpr std::size_t kSlabBytes =
-      std::max<std::size_t>(std::size_t{1} << 20, std::bit_ceil(64 * kOctetBytes));
   static constexpr OctetRef kLeafCapacity = (kSlabBytes - kHeaderBytes) / kOctetBytes;
   static constexpr OctetRef kInnerCapacity = (kSlabBytes - kHeaderBytes) / (kOctetBytes + sizeof(std::uintptr_t));
   static constexpr int kIndexBits = std::bit_width(kLeafCapacity - 1);
   static constexpr OctetRef kIndexMask = (OctetRef{1} << kIndexBits) - 1;
   static constexpr OctetRef kNone = std::numeric_limits<OctetRef>::max();
-
-  struct Slab {
-    bool inner;
-  };
 
   /// One of the two kinds of octets: its newest slab, filled up to `next`, and what was released.
   struct Kind {
@@ -103,11 +103,15 @@ class OctetPool {
     OctetRef capacity() const { return inner ? kInnerCapacity : kLeafCapacity; }
   };
 
-  static std::uintptr_t& owner(Slab* slab, std::size_t index) {
+  static_assert(kInnerCapacity >= 8, "a node type of many kilobytes: keep such data outside of the nodes");
+  static_assert(sizeof(SlabHeader) <= kHeaderBytes);
+
+  static std::uintptr_t& owner(const SlabHeader* slab, std::size_t index) {
     const std::size_t offset = (kHeaderBytes + kInnerCapacity * kOctetBytes + 7) / 8 * 8;
     static_assert((kHeaderBytes + kInnerCapacity * kOctetBytes + 7) / 8 * 8 + kInnerCapacity * sizeof(std::uintptr_t) <=
                   kSlabBytes);
-    return reinterpret_cast<std::uintptr_t*>(reinterpret_cast<char*>(slab) + offset)[index];
+    char* start = reinterpret_cast<char*>(const_cast<SlabHeader*>(slab));
+    return reinterpret_cast<std::uintptr_t*>(start + offset)[index];
   }
 
   OctetRef allocate(Kind& kind) {
@@ -119,7 +123,7 @@ class OctetPool {
     if (kind.slabs == 0 || kind.next == kind.capacity()) {
       if (slabs_.size() > (kNone >> kIndexBits) - 1) throw std::length_error("rhmap: more than 2^32 octets in one map");
       slabs_.reserve(slabs_.size() + 1);
-      slabs_.push_back(new (::operator new (kSlabBytes, std::align_val_t{kSlabBytes})) Slab{kind.inner});
+      slabs_.push_back(newSlab(kind.inner));
       kind.current = static_cast<OctetRef>(slabs_.size() - 1);
       kind.next = 0;
       ++kind.slabs;
@@ -127,7 +131,21 @@ class OctetPool {
     return kind.current << kIndexBits | kind.next++;
   }
 
-  std::vector<Slab*> slabs_;
+  SlabHeader* newSlab(bool inner) {
+    void* memory = ::operator new (kSlabBytes, std::align_val_t{kSlabBytes});
+    auto* slab = new (memory) SlabHeader{inner, store_, children_};
+    try {
+      addSlab(slab);
+    } catch (...) {
+      ::operator delete (memory, std::align_val_t{kSlabBytes});
+      throw;
+    }
+    return slab;
+  }
+
+  const void* store_;
+  NodeChildren (*children_)(const void*, const void*);
+  std::vector<SlabHeader*> slabs_;
   Kind leaves_{false};
   Kind inner_{true};
 };

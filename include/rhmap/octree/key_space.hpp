@@ -17,7 +17,8 @@ class KeySpace {
   /// Edge length of a cell [m].
   explicit KeySpace(double resolution) : resolution_(resolution), factor_(1. / resolution) {}
 
-  double resolution() const { return resolution_; }
+  const double& resolution() const { return resolution_; }
+  const double& inverseResolution() const { return factor_; }
 
   /// Edge length [m] of a node at this depth.
   double nodeSize(unsigned depth) const { return resolution_ * double(1U << (kTreeDepth - depth)); }

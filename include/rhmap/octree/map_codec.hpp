@@ -8,8 +8,9 @@
 #include <ostream>
 #include <stdexcept>
 #include <string>
+#include <type_traits>
 
-#include "rhmap/core/block_store.hpp"
+#include "rhmap/octree/structure.hpp"
 
 /// The node data of .ot and .bt: what stands after the text header, and in messages. Both run over the nodes depth
 /// first, children 0 ... 7.
@@ -18,7 +19,7 @@ namespace rhmap::codec {
 /// Collects small pieces and hands them to the stream in large ones.
 class ByteWriter {
  public:
-  explicit ByteWriter(std::ostream& stream) : stream_(stream) { buffer_.reserve(kFlushAt + 64); }
+  explicit ByteWriter(std::ostream& stream) : stream_(stream) {}
   ~ByteWriter() { flush(); }
   ByteWriter(const ByteWriter&) = delete;
   ByteWriter& operator=(const ByteWriter&) = delete;
@@ -30,6 +31,12 @@ class ByteWriter {
     if (buffer_.size() >= kFlushAt) flush();
     buffer_.resize(buffer_.size() + n);
     return buffer_.data() + buffer_.size() - n;
+  }
+
+  /// The stream itself, for a piece that is written by others.
+  std::ostream& stream() {
+    flush();
+    return stream_;
   }
 
  private:
@@ -66,9 +73,42 @@ std::uint8_t innerMask(const BlockStore<NODE>& store, NodeRef octet, std::uint8_
 
 // --- .ot: value and child mask of every node ---
 
+template <class CLASS, class R, class... ARGS>
+CLASS declarerOf(R (CLASS::*)(ARGS...));
+template <class CLASS, class R, class... ARGS>
+CLASS declarerOf(R (CLASS::*)(ARGS...) const);
+
+/// The class that says what a node's bytes are also says how they go into a stream. Otherwise it is a node class that
+/// was written for OctoMap's interface and knows streams only.
+template <class NODE>
+inline constexpr bool kHasBytes =
+    std::is_same_v<decltype(declarerOf(&NODE::toBytes)), decltype(declarerOf(&NODE::writeData))>;
+
+template <class NODE>
+void writeNode(const NODE& node, ByteWriter& out) {
+  if constexpr (kHasBytes<NODE>) {
+    node.toBytes(out.extend(NODE::kDataBytes));
+  } else {
+    node.writeData(out.stream());
+  }
+}
+
+/// Reads a node, and returns its child mask.
+template <class NODE>
+std::uint8_t readNode(NODE& node, std::istream& in) {
+  if constexpr (kHasBytes<NODE>) {
+    const auto bytes = take<NODE::kDataBytes + 1>(in);
+    node.fromBytes(bytes.data());
+    return static_cast<std::uint8_t>(bytes[NODE::kDataBytes]);
+  } else {
+    if (!node.readData(in)) throw std::runtime_error("the data ends in the middle of a node");
+    return static_cast<std::uint8_t>(take<1>(in)[0]);
+  }
+}
+
 template <class NODE>
 void writeValues(const BlockStore<NODE>& store, NodeRef at, ByteWriter& out) {
-  store.node(at)->toBytes(out.extend(NODE::kDataBytes));
+  writeNode(*store.node(at), out);
   const NodeRef o = store.childOctetOf(at);
   const std::uint8_t mask = o ? o.block->mask[o.slot] : std::uint8_t{0};
   out.put(mask);
@@ -78,9 +118,7 @@ void writeValues(const BlockStore<NODE>& store, NodeRef at, ByteWriter& out) {
 
 template <class NODE>
 void readValues(BlockStore<NODE>& store, NodeRef at, std::istream& in) {
-  const auto bytes = take<NODE::kDataBytes + 1>(in);
-  store.node(at)->fromBytes(bytes.data());
-  const auto mask = static_cast<std::uint8_t>(bytes[NODE::kDataBytes]);
+  const std::uint8_t mask = readNode(*store.node(at), in);
   if (mask == 0) return;
   if (at.depth() == kTreeDepth) throw std::runtime_error("a node at depth 16 claims to have children");
   const NodeRef o = store.createChildren(at, mask);
@@ -127,7 +165,7 @@ void readBits(BlockStore<NODE>& store, NodeRef at, float free, float occupied, s
     const NodeRef child{o.block, o.slot * 8 + static_cast<int>(i)};
     if (pair == 3) {
       readBits(store, child, free, occupied, in);
-      store.node(child)->updateOccupancyChildren(store.children(child));
+      structure::recompute(store, child, store.children(child));
     } else {
       store.node(child)->setLogOdds(pair == 1 ? free : occupied);
     }

@@ -15,8 +15,9 @@ template <class NODE>
 ScanMasks OccupancyOcTreeBase<NODE>::mark(const Pointcloud& scan, const point3d& origin, double maxrange,
                                           bool discretize) {
   last_scan_ = {};
+  const KeyBox limit = box();
   const ScanMarkingConfig config{
-      .max_range = maxrange, .box = use_bbx_limit_ ? &box_ : nullptr, .num_threads = num_threads_};
+      .max_range = maxrange, .box = use_bbx_limit ? &limit : nullptr, .num_threads = num_threads_};
   if (!discretize) return markScan(this->keys_, scan, origin, config, last_scan_);
   const Pointcloud centres = rhmap::discretize(this->keys_, scan, last_scan_);
   return markScan(this->keys_, centres, origin, config, last_scan_);
@@ -25,8 +26,9 @@ ScanMasks OccupancyOcTreeBase<NODE>::mark(const Pointcloud& scan, const point3d&
 template <class NODE>
 void OccupancyOcTreeBase<NODE>::insertPointCloud(const Pointcloud& scan, const point3d& sensor_origin, double maxrange,
                                                  bool lazy_eval, bool discretize) {
+  if (!hasOctomapsRules()) return insertCellByCell(scan, sensor_origin, maxrange, lazy_eval, discretize);
   const ScanMasks marks = mark(scan, sensor_origin, maxrange, discretize);
-  if (use_change_detection_) {  // has to look at every cell before and after
+  if (use_change_detection) {  // has to look at every cell before and after
     marks.forEachCell([&](const OcTreeKey& key, bool occupied) { updateNode(key, occupied, lazy_eval); });
     return;
   }
@@ -58,63 +60,131 @@ void OccupancyOcTreeBase<NODE>::insertPointCloudRays(const Pointcloud& scan, con
 
 template <class NODE>
 bool OccupancyOcTreeBase<NODE>::insertRay(const point3d& origin, const point3d& end, double maxrange, bool lazy_eval) {
-  const auto miss = [&](const OcTreeKey& key) { updateNode(key, false, lazy_eval); };
   if (maxrange > 0 && distance(origin, end) > maxrange)
-    return forEachRayKey(this->keys_, origin, cutAt(origin, end, maxrange), miss);
-  if (!forEachRayKey(this->keys_, origin, end, miss)) return false;
+    return integrateMissOnRay(origin, cutAt(origin, end, maxrange), lazy_eval);
+  if (!integrateMissOnRay(origin, end, lazy_eval)) return false;
   updateNode(end, true, lazy_eval);
   return true;
 }
 
 template <class NODE>
-void OccupancyOcTreeBase<NODE>::addTo(const ScanMasks& marks, KeySet& free_cells, KeySet& occupied_cells) const {
+bool OccupancyOcTreeBase<NODE>::integrateMissOnRay(const point3d& origin, const point3d& end, bool lazy_eval) {
+  return forEachRayKey(this->keys_, origin, end, [&](const OcTreeKey& key) { updateNode(key, false, lazy_eval); });
+}
+
+template <class NODE>
+void OccupancyOcTreeBase<NODE>::insertCellByCell(const Pointcloud& scan, const point3d& origin, double maxrange,
+                                                 bool lazy_eval, bool discretize) {
+  last_scan_ = {};
+  const KeyBox limit = box();
+  const ScanMarkingConfig config{.max_range = maxrange, .box = use_bbx_limit ? &limit : nullptr};
+  const auto collect = [&](const Pointcloud& points) {
+    return collectScan(this->keys_, points, origin, config, last_scan_);
+  };
+  const ScanCells cells = collect(discretize ? rhmap::discretize(this->keys_, scan, last_scan_) : scan);
+  for (const OcTreeKey& key : cells.free) updateNode(key, false, lazy_eval);
+  for (const OcTreeKey& key : cells.occupied) updateNode(key, true, lazy_eval);
+}
+
+template <class NODE>
+template <class KEYS>
+void OccupancyOcTreeBase<NODE>::addTo(const ScanMasks& marks, KEYS& free_cells, KEYS& occupied_cells) const {
   marks.forEachCell([&](const OcTreeKey& key, bool occupied) { (occupied ? occupied_cells : free_cells).insert(key); });
-  for (auto it = free_cells.begin(); it != free_cells.end();)
-    it = occupied_cells.count(*it) != 0 ? free_cells.erase(it) : std::next(it);
-}
-
-template <class NODE>
-void OccupancyOcTreeBase<NODE>::computeUpdate(const Pointcloud& scan, const point3d& origin, KeySet& free_cells,
-                                              KeySet& occupied_cells, double maxrange) {
-  addTo(mark(scan, origin, maxrange, false), free_cells, occupied_cells);
-}
-
-template <class NODE>
-void OccupancyOcTreeBase<NODE>::computeDiscreteUpdate(const Pointcloud& scan, const point3d& origin, KeySet& free_cells,
-                                                      KeySet& occupied_cells, double maxrange) {
-  addTo(mark(scan, origin, maxrange, true), free_cells, occupied_cells);
+  for (auto it = free_cells.begin(); it != free_cells.end();) {
+    if (occupied_cells.count(*it) != 0) {
+      it = free_cells.erase(it);
+    } else {
+      ++it;
+    }
+  }
 }
 
 // --- single cells ---
+
+/// True if an update of cells can be done without asking the object's class: nobody has overridden OctoMap's rules.
+template <class NODE>
+bool OccupancyOcTreeBase<NODE>::hasOctomapsRules() {
+  if constexpr (!structure::kOctomapsInnerValue<NODE>) return false;
+  return rules_(*this, [this] {
+    using This = OccupancyOcTreeBase;
+    const VirtualTable now(*this);
+    return now.agrees(own_members_, &This::expandNode) && now.agrees(own_members_, &This::pruneNode) &&
+           now.agrees(own_members_, &This::isNodeCollapsible) && now.agrees(own_members_, &This::updateNodeLogOdds) &&
+           now.agrees(own_members_, static_cast<NODE* (This::*)(const OcTreeKey&, float, bool)>(&This::updateNode)) &&
+           now.agrees(own_members_, static_cast<NODE* (This::*)(const OcTreeKey&, bool, bool)>(&This::updateNode));
+  });
+}
 
 /// `deepest`: the deepest node on the way to the cell that is there already.
 template <class NODE>
 template <class F>
 NODE* OccupancyOcTreeBase<NODE>::changeCell(NodeRef deepest, const OcTreeKey& key, bool lazy_eval, F&& change) {
-  bool created;
-  const NodeRef leaf = structure::reach(*this->store_, deepest, key, kTreeDepth, created);
+  bool created = false;
+  const NodeRef leaf = structure::reach(*this->store_, deepest, key, kTreeDepth, created, this->expander());
   NODE* node = this->store_->node(leaf);
-  if (use_change_detection_) {
-    const bool occupied_before = this->isNodeOccupied(node);
-    change(node);
-    noteChange(key, created, occupied_before != this->isNodeOccupied(node));
-  } else {
-    change(node);
-  }
+  this->store_->touch(leaf.block);
+  changeLeaf(node, key, created, change);
   if (lazy_eval) return node;
-  const NodeRef pruned = structure::summariseAbove(*this->store_, leaf);
-  if (!pruned) return node;
-  return this->store_->node(pruned);
+  const NodeRef pruned =
+      hasOctomapsRules() ? structure::summariseAbove(*this->store_, leaf) : summariseByClass(leaf, NodeRef());
+  return pruned ? this->store_->node(pruned) : node;
+}
+
+/// The same for the part of the tree below a node, as OctoMap's recursions do it from each node on.
+template <class NODE>
+template <class F>
+NODE* OccupancyOcTreeBase<NODE>::changeCellBelow(NODE* node, bool node_just_created, const OcTreeKey& key,
+                                                 unsigned depth, bool lazy_eval, F&& change) {
+  bool created = node_just_created;
+  if (depth >= kTreeDepth) {
+    if (Block* region = this->store_->findRegion(key)) this->store_->touch(region);
+    changeLeaf(node, key, created, change);
+    return node;
+  }
+  const NodeRef top = this->store_->locate(node);
+  NodeRef deepest = top;
+  while (const NodeRef child = structure::childTowards(*this->store_, deepest, key)) {
+    deepest = child;
+    created = false;
+  }
+  const NodeRef leaf = structure::reach(*this->store_, deepest, key, kTreeDepth, created, this->expander());
+  NODE* cell = this->store_->node(leaf);
+  this->store_->touch(leaf.block);
+  changeLeaf(cell, key, created, change);
+  if (lazy_eval) return cell;
+  const NodeRef pruned = summariseByClass(leaf, top);
+  return pruned ? this->store_->node(pruned) : cell;
 }
 
 template <class NODE>
-void OccupancyOcTreeBase<NODE>::noteChange(const OcTreeKey& key, bool created, bool flipped) {
+template <class F>
+void OccupancyOcTreeBase<NODE>::changeLeaf(NODE* leaf, const OcTreeKey& key, bool created, F&& change) {
+  if (!use_change_detection) return change(leaf);
+  const bool occupied_before = this->isNodeOccupied(leaf);
+  change(leaf);
   if (created) {
-    changed_keys_.insert({key, true});
-  } else if (flipped) {
-    const auto [it, is_new] = changed_keys_.insert({key, false});
-    if (!is_new && !it->second) changed_keys_.erase(it);  // flipped back
+    changed_keys.insert({key, true});
+  } else if (occupied_before != this->isNodeOccupied(leaf)) {
+    const auto [it, is_new] = changed_keys.insert({key, false});
+    if (!is_new && !it->second) changed_keys.erase(it);  // flipped back
   }
+}
+
+/// structure::summariseAbove() up to `top`, for a class that has rules of its own.
+template <class NODE>
+NodeRef OccupancyOcTreeBase<NODE>::summariseByClass(NodeRef child, NodeRef top) {
+  NodeRef pruned;
+  while (child != top) {
+    const NodeRef parent = this->store_->parent(child);
+    if (!parent) break;
+    if (this->pruneNode(this->store_->node(parent))) {
+      pruned = parent;
+    } else {
+      structure::recompute(*this->store_, parent, this->store_->children(parent));
+    }
+    child = parent;
+  }
+  return pruned;
 }
 
 template <class NODE>
@@ -134,7 +204,41 @@ NODE* OccupancyOcTreeBase<NODE>::setNodeValue(const OcTreeKey& key, float log_od
 }
 
 template <class NODE>
+NODE* OccupancyOcTreeBase<NODE>::updateNodeRecurs(NODE* node, bool node_just_created, const OcTreeKey& key,
+                                                  unsigned depth, const float& log_odds_update, bool lazy_eval) {
+  return changeCellBelow(node, node_just_created, key, depth, lazy_eval,
+                         [&](NODE* leaf) { updateNodeLogOdds(leaf, log_odds_update); });
+}
+
+template <class NODE>
+NODE* OccupancyOcTreeBase<NODE>::setNodeValueRecurs(NODE* node, bool node_just_created, const OcTreeKey& key,
+                                                    unsigned depth, const float& log_odds_value, bool lazy_eval) {
+  return changeCellBelow(node, node_just_created, key, depth, lazy_eval,
+                         [&](NODE* leaf) { leaf->setLogOdds(log_odds_value); });
+}
+
+// --- all nodes ---
+
+template <class NODE>
+void OccupancyOcTreeBase<NODE>::updateInnerOccupancyRecurs(NODE* node, unsigned depth) {
+  const Octet<NODE> children = this->childrenOf(node);
+  if (children.mask == 0) return;
+  for (unsigned i = 0; i < 8; ++i)
+    if (children.has(i)) updateInnerOccupancyRecurs(children.nodes + i, depth + 1);
+  structure::recompute(*this->store_, this->store_->locate(node), children);
+}
+
+template <class NODE>
+void OccupancyOcTreeBase<NODE>::toMaxLikelihoodRecurs(NODE* node, unsigned depth, unsigned max_depth) {
+  if (depth >= max_depth) return nodeToMaxLikelihood(node);
+  const Octet<NODE> children = this->childrenOf(node);
+  for (unsigned i = 0; i < 8; ++i)
+    if (children.has(i)) toMaxLikelihoodRecurs(children.nodes + i, depth + 1, max_depth);
+}
+
+template <class NODE>
 void OccupancyOcTreeBase<NODE>::toMaxLikelihood() {
+  this->store_->touchAll();
   this->store_->forEachBlock([&](Block& block) {
     for (int o = 0; o < kOctets; ++o) {
       if (block.mask[static_cast<std::size_t>(o)] == 0) continue;
@@ -188,10 +292,31 @@ bool OccupancyOcTreeBase<NODE>::castRay(const point3d& origin, const point3d& di
 
 template <class NODE>
 std::ostream& OccupancyOcTreeBase<NODE>::writeBinaryData(std::ostream& s) const {
+  return this->store_->empty() ? s : writeBinaryNode(s, this->getRoot());
+}
+
+template <class NODE>
+std::ostream& OccupancyOcTreeBase<NODE>::writeBinaryNode(std::ostream& s, const NODE* node) const {
   codec::ByteWriter out(s);
-  if (const NodeRef root = this->store_->root())
+  if (const NodeRef at = this->store_->locate(node))
     codec::writeBits(
-        *this->store_, root, [this](const NODE& node) { return this->isNodeOccupied(&node); }, out);
+        *this->store_, at, [this](const NODE& n) { return this->isNodeOccupied(&n); }, out);
+  return s;
+}
+
+template <class NODE>
+std::istream& OccupancyOcTreeBase<NODE>::readBinaryNode(std::istream& s, NODE* node) {
+  const NodeRef at = this->store_->locate(node);
+  if (!s.good() || !at || this->store_->hasChildren(at)) {
+    s.setstate(std::ios::failbit);
+    return s;
+  }
+  try {
+    codec::readBits(*this->store_, at, this->clamping_thres_min, this->clamping_thres_max, s);
+  } catch (const std::runtime_error&) {
+    structure::removeBelow(*this->store_, at);
+    s.setstate(std::ios::failbit);
+  }
   return s;
 }
 
@@ -201,14 +326,9 @@ std::istream& OccupancyOcTreeBase<NODE>::readBinaryData(std::istream& s) {
     s.setstate(std::ios::failbit);
     return s;
   }
-  try {
-    const NodeRef root = this->store_->createRoot();
-    this->store_->node(root)->setLogOdds(this->clamping_thres_max);  // and so it stays: OctoMap never recomputes it
-    codec::readBits(*this->store_, root, this->clamping_thres_min, this->clamping_thres_max, s);
-  } catch (const std::runtime_error&) {
-    this->store_->clear();
-    s.setstate(std::ios::failbit);
-  }
+  NODE* root_node = this->store_->node(this->store_->createRoot());
+  root_node->setLogOdds(this->clamping_thres_max);  // and so it stays: OctoMap never recomputes it
+  if (readBinaryNode(s, root_node).fail()) this->store_->clear();
   return s;
 }
 

@@ -36,7 +36,7 @@ class OcTreeBaseImpl : public INTERFACE {
   using iterator = leaf_iterator;
 
   /// An empty tree with cells of this edge length [m].
-  explicit OcTreeBaseImpl(double resolution) : keys_(resolution) {}
+  OcTreeBaseImpl(double resolution) : keys_(resolution) {}  // NOLINT: implicit, as OctoMap's is
   OcTreeBaseImpl(const OcTreeBaseImpl& other) : INTERFACE(other), keys_(other.keys_) {
     store_->copyFrom(*other.store_);
   }
@@ -45,6 +45,7 @@ class OcTreeBaseImpl : public INTERFACE {
   /// Swaps the nodes, and nothing else, with another tree.
   void swapContent(OcTreeBaseImpl& other) {
     store_.swap(other.store_);
+    store_->swapObservers(*other.store_);  // who observes a tree keeps observing that tree
     bounds_.reset();
     other.bounds_.reset();
   }
@@ -94,19 +95,24 @@ class OcTreeBaseImpl : public INTERFACE {
     store_->removeSubtree({octet.block, octet.slot * 8 + static_cast<int>(child)});
   }
 
+  // The rules of pruning and expanding. All members that change the structure obey a subclass that overrides them.
+
   /// All eight children exist, are leaves and are equal.
-  bool isNodeCollapsible(const NODE* node) const {
+  virtual bool isNodeCollapsible(const NODE* node) const {
     const NodeRef at = store_->locate(node);
     return at && structure::isCollapsible(*store_, at);
   }
   /// Gives a leaf eight children with its data. Does nothing at depth 16 or where there are children.
-  void expandNode(NODE* node) {
+  virtual void expandNode(NODE* node) {
     if (const NodeRef at = store_->locate(node); at && !store_->hasChildren(at)) structure::expand(*store_, at);
   }
   /// Replaces eight equal leaf children by this node; false if it is not collapsible.
-  bool pruneNode(NODE* node) {
-    const NodeRef at = store_->locate(node);
-    return at && structure::prune(*store_, at);
+  virtual bool pruneNode(NODE* node) {
+    if (!isNodeCollapsible(node)) return false;
+    store_->touch(store_->locate(node).block);
+    if (nodeChildExists(node, 0)) node->copyData(*getNodeChild(node, 0));
+    structure::removeBelow(*store_, store_->locate(node));
+    return true;
   }
 
   // --- search and deletion ---
@@ -128,7 +134,7 @@ class OcTreeBaseImpl : public INTERFACE {
   /// their last child go with it, except the root. True if the root lost its last child or there was none: OctoMap's
   /// answer.
   bool deleteNode(const OcTreeKey& key, unsigned depth = 0) {
-    return structure::deleteNode(*store_, key, depth == 0 ? kTreeDepth : depth);
+    return structure::deleteNode(*store_, key, depth == 0 ? kTreeDepth : depth, expander());
   }
   bool deleteNode(const point3d& value, unsigned depth = 0) {
     OcTreeKey key;
@@ -141,9 +147,11 @@ class OcTreeBaseImpl : public INTERFACE {
 
   void clear() override { store_->clear(); }
   /// Collapses level by level from the cells up, and stops at the first level where nothing collapsed, as OctoMap does.
-  void prune() override { structure::pruneLevels(*store_); }
+  void prune() override {
+    structure::pruneLevels(*store_, [this](NodeRef at) { return pruneNode(store_->node(at)); });
+  }
   /// Expands every leaf down to depth 16.
-  void expand() override { structure::expandAll(*store_); }
+  void expand() override { structure::expandAll(*store_, expander()); }
 
   // --- statistics ---
 
@@ -266,6 +274,11 @@ class OcTreeBaseImpl : public INTERFACE {
     std::array<double, 3> size() const { return {max[0] - min[0], max[1] - min[1], max[2] - min[2]}; }
   };
 
+  /// Expands by the rule of this object's class.
+  auto expander() {
+    return [this](NodeRef at) { expandNode(store_->node(at)); };
+  }
+
   NODE* nodeOrNull(NodeRef at) const { return at ? store_->node(at) : nullptr; }
 
   Octet<NODE> childrenOf(const NODE* node) const {
@@ -273,8 +286,28 @@ class OcTreeBaseImpl : public INTERFACE {
     return at ? store_->children(at) : Octet<NODE>{};
   }
 
+  // OctoMap's names, for subclasses.
+
+  /// Stands for OctoMap's member of this name: the root node, null in an empty tree.
+  struct Root {
+    const OcTreeBaseImpl* tree;
+    operator NODE*() const { return tree->getRoot(); }  // NOLINT
+    NODE* operator->() const { return tree->getRoot(); }
+  };
+  /// Stands for OctoMap's member of this name: the number of nodes. The tree keeps it up to date by itself.
+  struct TreeSize {
+    const OcTreeBaseImpl* tree;
+    operator std::size_t() const { return tree->store_->size(); }  // NOLINT
+  };
+  const Root root{this};
+  const TreeSize tree_size{this};
+  static constexpr unsigned tree_depth = kTreeDepth;
+  static constexpr unsigned tree_max_val = kTreeMaxVal;
+
   std::unique_ptr<BlockStore<NODE>> store_ = std::make_unique<BlockStore<NODE>>();
   KeySpace keys_;
+  const double& resolution = keys_.resolution();           // [m]
+  const double& resolution_factor = keys_.inverseResolution();  // [1/m]
   std::optional<Bounds> bounds_;  // the last that the non-const getters computed
 
  private:
@@ -295,6 +328,18 @@ class OcTreeBaseImpl : public INTERFACE {
   }
   template <class Upper>
   Bounds computeBounds(Upper&& upper) const;
+};
+
+/// A tree of NODEs that do not hold occupancy; the base of CountingOcTree.
+template <class NODE>
+class OcTreeBase : public OcTreeBaseImpl<NODE, AbstractOcTree> {
+  using Base = OcTreeBaseImpl<NODE, AbstractOcTree>;
+
+ public:
+  OcTreeBase(double resolution) : Base(resolution) {}  // NOLINT: implicit, as OctoMap's is
+
+  OcTreeBase* create() const override { return new OcTreeBase(this->getResolution()); }
+  std::string getTreeType() const override { return "OcTreeBase"; }
 };
 
 }  // namespace rhmap

@@ -48,7 +48,9 @@ class ScanApplier {
       changed[t] = applyOctant(*region, t, fresh >> t & 1);
       any = any || changed[t] != 0;
     }
-    if (any && !lazy_) summarise(*region, changed);
+    if (!any) return;
+    store_.touch(region);
+    if (!lazy_) summarise(*region, changed);
   }
 
  private:
@@ -58,8 +60,9 @@ class ScanApplier {
     if (region == nullptr) {
       const NodeRef deepest = store_.deepest(corner);
       if (deepest && !store_.hasChildren(deepest) && !keepUnsettled(store_.node(deepest)->getLogOdds())) return nullptr;
-      bool new_cell;
-      const NodeRef cell = structure::reach(store_, deepest, corner, kTreeDepth - 3, new_cell);
+      bool new_cell = false;
+      const NodeRef cell = structure::reach(store_, deepest, corner, kTreeDepth - 3, new_cell,
+                                            [this](NodeRef at) { structure::expand(store_, at); });
       if (new_cell) {
         fresh = markedOctants();
         return store_.createChildren(cell, static_cast<std::uint8_t>(fresh)).block;

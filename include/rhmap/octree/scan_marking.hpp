@@ -4,6 +4,7 @@
 #include <octomap/Pointcloud.h>
 
 #include <cstddef>
+#include <unordered_set>
 
 #include "rhmap/octree/key_space.hpp"
 #include "rhmap/octree/scan_masks.hpp"
@@ -44,6 +45,17 @@ struct ScanCounts {
 /// threads.
 ScanMasks markScan(const KeySpace& keys, const octomap::Pointcloud& scan, const point3d& origin,
                    const ScanMarkingConfig& config, ScanCounts& counts);
+
+/// The cells of a scan as OctoMap collects them: in its sets, filled in its order, which is what decides about the order
+/// in which it updates the cells.
+struct ScanCells {
+  using Keys = std::unordered_set<OcTreeKey, OcTreeKey::KeyHash>;
+  Keys free, occupied;  ///< no cell is in both
+};
+
+/// The cells that markScan() marks, found one ray after the other: for trees that have to be asked about every cell.
+ScanCells collectScan(const KeySpace& keys, const octomap::Pointcloud& scan, const point3d& origin,
+                      const ScanMarkingConfig& config, ScanCounts& counts);
 
 /// One point for each cell that has a point: the cell's centre, in the order of first appearance. Points outside of the
 /// tree wrap around, as in OctoMap; those that are not finite are skipped and counted.

@@ -38,23 +38,44 @@ void expand(BlockStore<NODE>& store, NodeRef at) {
 /// Replaces the eight nodes of a uniform octet by their parent.
 template <class NODE>
 void collapse(BlockStore<NODE>& store, NodeRef parent, NodeRef octet) {
+  store.touch(parent.block);
   store.node(parent)->copyData(*store.octet(octet.block, octet.slot).nodes);
   store.removeNodes(octet.block, octet.slot, 0xff);
 }
 
-/// Replaces eight equal leaves by their parent; false if it is not collapsible.
+/// Leaves a node without children.
 template <class NODE>
-bool prune(BlockStore<NODE>& store, NodeRef at) {
-  const NodeRef octet = store.childOctetOf(at);
-  if (!octet || !isUniform(store, octet)) return false;
-  collapse(store, at, octet);
-  return true;
+void removeBelow(BlockStore<NODE>& store, NodeRef at) {
+  const std::uint8_t mask = store.children(at).mask;
+  for (int i = 0; i < 8; ++i)
+    if (mask >> i & 1) {
+      const NodeRef octet = store.childOctetOf(at);
+      store.removeSubtree({octet.block, octet.slot * 8 + i});
+    }
+}
+
+/// The node's class leaves the value of inner nodes to OctoMap's rule, the largest of the children.
+template <class NODE>
+inline constexpr bool kOctomapsInnerValue = requires(NODE node, Octet<NODE> children) {
+  node.updateOccupancyChildren(children);
+};
+
+/// Recomputes an inner node from its children, by the rule of its class, if it has one.
+template <class NODE>
+void recompute(BlockStore<NODE>& store, NodeRef at, const Octet<NODE>& children) {
+  store.touch(at.block);
+  NODE* node = store.node(at);
+  if constexpr (kOctomapsInnerValue<NODE>) {
+    node->updateOccupancyChildren(children);
+  } else if constexpr (requires { node->updateOccupancyChildren(); }) {
+    node->updateOccupancyChildren();
+  }
 }
 
 /// Recomputes a node from its children, of which `child` is one.
 template <class NODE>
 void recompute(BlockStore<NODE>& store, NodeRef parent, NodeRef child) {
-  store.node(parent)->updateOccupancyChildren(store.octet(child.block, child.slot >> 3));
+  recompute(store, parent, store.octet(child.block, child.slot >> 3));
 }
 
 /// OctoMap's rule on the way up from a child: eight equal leaves become their parent, else the parent is recomputed
@@ -88,11 +109,14 @@ NodeRef summariseAbove(BlockStore<NODE>& store, NodeRef child) {
   return pruned;
 }
 
-/// The child of a node on the way to `key`, existing or not; its octet must exist.
+/// The child of a node on the way to `key`; empty if there is none.
 template <class NODE>
 NodeRef childTowards(const BlockStore<NODE>& store, NodeRef at, const OcTreeKey& key) {
   const NodeRef o = store.childOctetOf(at);
-  return {o.block, slotAbove(cellIndex(key, o.block->level), o.slot < kMiddleOctet ? 1 : o.slot < kTopOctet ? 0 : -1)};
+  if (!o) return {};
+  const int step = o.slot < kMiddleOctet ? 1 : o.slot < kTopOctet ? 0 : -1;
+  const int slot = slotAbove(cellIndex(key, o.block->level), step);
+  return o.block->has(slot) ? NodeRef{o.block, slot} : NodeRef{};
 }
 
 /// Number of the child on the way to `key`.
@@ -101,38 +125,43 @@ inline int childNumber(NodeRef at, const OcTreeKey& key) {
   return (key[0] >> bit & 1) | (key[1] >> bit & 1) << 1 | (key[2] >> bit & 1) << 2;
 }
 
-/// Makes the way down to depth `depth` exist, from the deepest node that is there (or none): a pruned leaf is expanded,
-/// a missing node is made with the default value. `fresh` tells whether the node returned is new and not a copy of a
-/// pruned leaf.
-template <class NODE>
-NodeRef reach(BlockStore<NODE>& store, NodeRef deepest, const OcTreeKey& key, unsigned depth, bool& fresh) {
+/// Makes the way down to depth `depth` exist, from the deepest node that is there (or none): a pruned leaf is expanded
+/// (by `expand(NodeRef)`), a missing node is made with the default value. `fresh` tells whether the node returned is
+/// new and not a copy of a pruned leaf; coming in, whether `deepest` is.
+template <class NODE, class Expand>
+NodeRef reach(BlockStore<NODE>& store, NodeRef deepest, const OcTreeKey& key, unsigned depth, bool& fresh,
+              Expand&& expand) {
   NodeRef at = deepest;
-  fresh = !at;
-  if (!at) at = store.createRoot();
+  if (!at) {
+    at = store.createRoot();
+    fresh = true;
+  }
   while (at.depth() < depth) {
     if (!fresh && !store.hasChildren(at)) {
-      expand(store, at);
-      at = childTowards(store, at, key);
-    } else {
-      at = store.createChild(at, childNumber(at, key));
-      fresh = true;
+      expand(at);
+      if (const NodeRef child = childTowards(store, at, key)) {
+        at = child;
+        continue;
+      }
     }
+    at = store.createChild(at, childNumber(at, key));
+    fresh = true;
   }
   return at;
 }
 
 /// See OcTreeBaseImpl::deleteNode.
-template <class NODE>
-bool deleteNode(BlockStore<NODE>& store, const OcTreeKey& key, unsigned depth) {
+template <class NODE, class Expand>
+bool deleteNode(BlockStore<NODE>& store, const OcTreeKey& key, unsigned depth, Expand&& expand) {
   if (store.empty()) return true;
   NodeRef at = store.root();
   while (at.depth() < depth) {
     if (!store.hasChildren(at)) {
       if (at == store.root()) return false;
-      expand(store, at);
+      expand(at);
     }
     at = childTowards(store, at, key);
-    if (!at.block->has(at.slot)) return false;
+    if (!at) return false;
   }
   NodeRef above = store.parent(at);
   store.removeSubtree(at);
@@ -142,7 +171,7 @@ bool deleteNode(BlockStore<NODE>& store, const OcTreeKey& key, unsigned depth) {
     above = store.parent(at);
     store.remove(at);
   }
-  store.node(above)->updateOccupancyChildren(store.children(above));
+  recompute(store, above, store.children(above));
   return false;
 }
 
@@ -169,32 +198,33 @@ void forEachAtDepth(const BlockStore<NODE>& store, unsigned depth, F&& visit) {
       if (block->has(slot)) visit(NodeRef{block, slot});
 }
 
-/// See OcTreeBaseImpl::prune.
-template <class NODE>
-void pruneLevels(BlockStore<NODE>& store) {
+/// See OcTreeBaseImpl::prune. `prune(NodeRef)` tells whether it pruned.
+template <class NODE, class Prune>
+void pruneLevels(BlockStore<NODE>& store, Prune&& prune) {
   for (unsigned depth = kTreeDepth - 1; depth > 0; --depth) {
     std::size_t pruned = 0;
-    forEachAtDepth(store, depth, [&](NodeRef at) { pruned += prune(store, at); });
+    forEachAtDepth(store, depth, [&](NodeRef at) { pruned += prune(at); });
     if (pruned == 0) break;
   }
 }
 
 /// Expands every leaf down to depth 16.
-template <class NODE>
-void expandAll(BlockStore<NODE>& store) {
+template <class NODE, class Expand>
+void expandAll(BlockStore<NODE>& store, Expand&& expand) {
   for (unsigned depth = 0; depth < kTreeDepth; ++depth)
     forEachAtDepth(store, depth, [&](NodeRef at) {
-      if (!store.hasChildren(at)) expand(store, at);
+      if (!store.hasChildren(at)) expand(at);
     });
 }
 
 /// Recomputes every inner node from its children, bottom up.
 template <class NODE>
 void updateInner(BlockStore<NODE>& store) {
+  store.touchAll();  // leaves, too: who wrote into nodes by hand calls this afterwards
   for (int depth = kTreeDepth - 1; depth >= 0; --depth)
     forEachAtDepth(store, static_cast<unsigned>(depth), [&](NodeRef at) {
       if (const Octet<NODE> children = store.children(at); children.mask != 0)
-        store.node(at)->updateOccupancyChildren(children);
+        recompute(store, at, children);
     });
 }
 
