@@ -1,7 +1,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "rhmap/octree/color_octree.hpp"
 
+#include <stdlib.h>
+
 #include <array>
+#include <cstdlib>
+#include <filesystem>
+#include <stdexcept>
 #include <utility>
 
 #include "rhmap/core/atomic_file.hpp"
@@ -137,31 +142,47 @@ void ColorOcTree::updateInnerOccupancyRecurs(ColorOcTreeNode* node, unsigned dep
   node->updateColorChildren();
 }
 
+// --- the histogram ---
+
+namespace {
+
+struct Channel {
+  char name;
+  std::array<int, 256> counts{};
+};
+
+/// OctoMap's plot: the three channels as filled curves, and their outlines on top.
+void writeGnuplot(std::ostream& s, const std::array<Channel, 3>& channels, const std::string& picture) {
+  s << "set term postscript eps enhanced color\nset output \"" << picture << "\"\nplot [-1:256] ";
+  for (int i = 0; i < 3; ++i)
+    s << "'-' w filledcurve lt 1 lc " << i + 1 << " tit \"" << channels[static_cast<std::size_t>(i)].name << "\",";
+  for (int i = 0; i < 3; ++i) s << "'-' w l lt 1 lc " << i + 1 << (i < 2 ? " tit \"\"," : " tit \"\"\n");
+  for (int pass = 0; pass < 2; ++pass)
+    for (const Channel& channel : channels) {
+      for (int i = 0; i < 256; ++i) s << i << ' ' << channel.counts[static_cast<std::size_t>(i)] << '\n';
+      if (pass == 0) s << "0 0\n";
+      s << "e\n";
+    }
+}
+
+}  // namespace
+
 void ColorOcTree::writeColorHistogram(const std::string& filename) const {
-  struct Channel {
-    const char* name;
-    std::array<int, 256> counts{};
-  };
-  std::array<Channel, 3> channels{Channel{"red"}, Channel{"green"}, Channel{"blue"}};
-  for (auto it = begin_tree(), last = end_tree(); it != last; ++it) {
+  std::array<Channel, 3> channels{Channel{'r'}, Channel{'g'}, Channel{'b'}};
+  for (auto it = begin_leafs(), last = end_leafs(); it != last; ++it) {
+    if (!isNodeOccupied(*it)) continue;
     const Color color = std::as_const(*it).getColor();
     ++channels[0].counts[color.r];
     ++channels[1].counts[color.g];
     ++channels[2].counts[color.b];
   }
-  writeFileWhole(filename, [&](std::ostream& s) {
-    s << "set terminal postscript eps enhanced color\nset output \"" << filename << "\"\nplot [-1:256] ";
-    for (const Channel& channel : channels)
-      s << "'-' w filledcurve lt 1 lc rgb \"" << channel.name << "\" tit \"" << channel.name[0] << "\", ";
-    for (const Channel& channel : channels) s << "'-' w l lt 1 lc rgb \"" << channel.name << "\" notitle, ";
-    s << '\n';
-    for (int pass = 0; pass < 2; ++pass)
-      for (const Channel& channel : channels) {
-        for (int i = 0; i < 256; ++i) s << i << ' ' << channel.counts[static_cast<std::size_t>(i)] << '\n';
-        if (pass == 0) s << "0 0\n";
-        s << "e\n";
-      }
-  });
+  std::string folder = (std::filesystem::temp_directory_path() / "rhmap_gnuplot_XXXXXX").string();
+  if (mkdtemp(folder.data()) == nullptr) throw std::runtime_error(folder + ": this folder cannot be made");
+  const std::string script = folder + "/histogram.gnuplot";
+  writeFileWhole(script, [&](std::ostream& s) { writeGnuplot(s, channels, filename); });
+  const int status = std::system(("gnuplot '" + script + "' >/dev/null 2>&1").c_str());
+  std::filesystem::remove_all(folder);
+  if (status != 0) throw std::runtime_error(filename + ": gnuplot did not draw it; is it installed?");
 }
 
 }  // namespace rhmap

@@ -8,6 +8,7 @@
 #include <exception>
 #include <memory>
 #include <optional>
+#include <unordered_set>
 #include <utility>
 #include <vector>
 
@@ -163,7 +164,7 @@ ScanCells collectScan(const KeySpace& keys, const octomap::Pointcloud& scan, con
     cells.free.insert(crossed.begin(), std::find_if(crossed.begin(), crossed.end(), leaves_box));
     if (ray->hit) cells.occupied.insert(*ray->hit);
   }
-  std::erase_if(cells.free, [&](const OcTreeKey& key) { return cells.occupied.contains(key); });
+  removeOccupied(cells.free, cells.occupied);
   return cells;
 }
 

@@ -156,13 +156,19 @@ class BlockStore {
 
   /// Makes nodes of an existing or new octet of a block: `bits` must not exist yet. Returns the octet's nodes.
   NODE* createNodes(Block* block, int number, std::uint8_t bits) {
+    return createNodes(block, number, bits, [](void* place, int) { new (place) NODE(); });
+  }
+  /// The same, node `i` of the octet made by `construct(place, i)`.
+  template <class Construct>
+  NODE* createNodes(Block* block, int number, std::uint8_t bits, Construct&& construct) {
     touch(block);
     if (block->mask[number] == 0) {
       const bool leaves = block->level == kRegionLevel && number < kMiddleOctet;
       block->octet[number] = leaves ? nodes_.allocateLeaves() : nodes_.allocateInner(block, number);
     }
     NODE* nodes = nodes_.nodes(block->octet[number]);
-    for (unsigned rest = bits; rest != 0; rest &= rest - 1) new (nodes + std::countr_zero(rest)) NODE();
+    for (unsigned rest = bits; rest != 0; rest &= rest - 1)
+      construct(static_cast<void*>(nodes + std::countr_zero(rest)), std::countr_zero(rest));
     block->mask[number] = static_cast<std::uint8_t>(block->mask[number] | bits);
     size_ += static_cast<std::size_t>(std::popcount(bits));
     ++version_;
@@ -292,9 +298,7 @@ class BlockStore {
     for (int o = 0; o < kOctets; ++o) {
       if (from.mask[o] == 0) continue;
       const Octet<NODE> source = other.octet(&from, o);
-      NODE* target = createNodes(to, o, source.mask);
-      for (unsigned i = 0; i < 8; ++i)
-        if (source.has(i)) target[i] = source.nodes[i];
+      createNodes(to, o, source.mask, [&](void* place, int i) { new (place) NODE(source.nodes[i]); });
     }
     if (from.level == kRegionLevel) return;
     for (int cell = 0; cell < kCells; ++cell)

@@ -5,7 +5,9 @@
 #include <cstdint>
 #include <vector>
 
+#define RHMAP_KEYS_ONLY  // in the compat world: without our set of keys, which needs this file
 #include <octomap/OcTreeKey.h>
+#undef RHMAP_KEYS_ONLY
 #include <octomap/octomap_types.h>
 
 /// How a 16-bit OctoMap key splits into a block and a cell of that block.

@@ -81,8 +81,8 @@ class ColorOcTree : public OccupancyOcTreeBase<ColorOcTreeNode> {
   /// Recomputes occupancy and colour of all inner nodes from their children, without pruning.
   void updateInnerOccupancy();
 
-  /// Writes a gnuplot script that draws histograms of the three colour channels over all nodes. Throws
-  /// std::runtime_error if the file cannot be written.
+  /// Draws histograms of the three colour channels over the occupied leaves into a PostScript file, by the program
+  /// gnuplot. Throws std::runtime_error if that fails.
   void writeColorHistogram(const std::string& filename) const;
 
  protected:

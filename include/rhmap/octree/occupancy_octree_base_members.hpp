@@ -90,13 +90,7 @@ template <class NODE>
 template <class KEYS>
 void OccupancyOcTreeBase<NODE>::addTo(const ScanMasks& marks, KEYS& free_cells, KEYS& occupied_cells) const {
   marks.forEachCell([&](const OcTreeKey& key, bool occupied) { (occupied ? occupied_cells : free_cells).insert(key); });
-  for (auto it = free_cells.begin(); it != free_cells.end();) {
-    if (occupied_cells.count(*it) != 0) {
-      it = free_cells.erase(it);
-    } else {
-      ++it;
-    }
-  }
+  removeOccupied(free_cells, occupied_cells);
 }
 
 // --- single cells ---

@@ -4,7 +4,6 @@
 #include <octomap/Pointcloud.h>
 
 #include <cstddef>
-#include <unordered_set>
 
 #include "rhmap/octree/key_space.hpp"
 #include "rhmap/octree/scan_masks.hpp"
@@ -49,9 +48,21 @@ ScanMasks markScan(const KeySpace& keys, const octomap::Pointcloud& scan, const 
 /// The cells of a scan as OctoMap collects them: in its sets, filled in its order, which is what decides about the order
 /// in which it updates the cells.
 struct ScanCells {
-  using Keys = std::unordered_set<OcTreeKey, OcTreeKey::KeyHash>;
+  using Keys = octomap::unordered_ns::unordered_set<OcTreeKey, OcTreeKey::KeyHash>;  // std or, mostly, std::tr1
   Keys free, occupied;  ///< no cell is in both
 };
+
+/// Occupied wins: takes the cells that are in both sets out of the first.
+template <class KEYS>
+void removeOccupied(KEYS& free, const KEYS& occupied) {
+  for (auto it = free.begin(); it != free.end();) {
+    if (occupied.count(*it) != 0) {
+      it = free.erase(it);
+    } else {
+      ++it;
+    }
+  }
+}
 
 /// The cells that markScan() marks, found one ray after the other: for trees that have to be asked about every cell.
 ScanCells collectScan(const KeySpace& keys, const octomap::Pointcloud& scan, const point3d& origin,
