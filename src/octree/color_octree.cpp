@@ -60,6 +60,10 @@ std::ostream& ColorOcTreeNode::writeData(std::ostream& s) const {
   return s.write(bytes.data(), bytes.size());
 }
 
+std::ostream& operator<<(std::ostream& out, const ColorOcTreeNode::Color& c) {
+  return out << '(' << int{c.r} << ' ' << int{c.g} << ' ' << int{c.b} << ')';
+}
+
 // --- pruning ---
 
 bool ColorOcTree::isNodeCollapsible(const ColorOcTreeNode* node) const {

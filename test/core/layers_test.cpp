@@ -16,17 +16,22 @@ namespace fs = std::filesystem;
 const std::map<std::string, std::set<std::string>> kMayInclude{
     {"core", {}},
     {"octree", {"core"}},
+    {"compat", {"core", "octree"}},
     {"io", {"core", "octree"}},
     {"baseline", {"core", "octree"}},
 };
+
+bool isSource(const fs::directory_entry& entry) {
+  const fs::path extension = entry.path().extension();
+  return entry.is_regular_file() && (extension == ".hpp" || extension == ".cpp" || extension == ".h");
+}
 
 TEST(Layers, LookOnlyDown) {
   const std::regex include("#include \"rhmap/([a-z]+)/[^\"]*\"");
   std::size_t includes = 0;
   for (const auto* folder : {"include/rhmap", "src"}) {
     for (const auto& entry : fs::recursive_directory_iterator(fs::path(RHMAP_SOURCE_DIR) / folder)) {
-      if (!entry.is_regular_file() || (entry.path().extension() != ".hpp" && entry.path().extension() != ".cpp"))
-        continue;
+      if (!isSource(entry)) continue;
       const std::string layer = fs::relative(entry.path(), fs::path(RHMAP_SOURCE_DIR) / folder).begin()->string();
       ASSERT_TRUE(kMayInclude.count(layer)) << entry.path() << ": a layer that this test does not know";
       std::ifstream file(entry.path());

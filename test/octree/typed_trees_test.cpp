@@ -156,6 +156,13 @@ TEST(ColorOcTree, PruningTakesTheMeanColour) {
   EXPECT_TRUE(otBytes(copy) == otBytes(tree));
 }
 
+TEST(ColorOcTree, PrintsColoursAsOctomapDoes) {
+  std::ostringstream ours, theirs;
+  ours << ColorOcTreeNode::Color(1, 20, 255);
+  theirs << octomap::ColorOcTreeNode::Color(1, 20, 255);
+  EXPECT_EQ(ours.str(), theirs.str());
+}
+
 TEST(ColorOcTree, UnknownCellsCannotBeColoured) {
   ColorOcTree tree(0.1);
   EXPECT_EQ(tree.setNodeColor(OcTreeKey(1, 2, 3), 1, 2, 3), nullptr);

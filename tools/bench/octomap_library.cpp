@@ -37,7 +37,7 @@ class Node final : public octomap::OcTreeNode {};
 }  // namespace
 
 std::unique_ptr<Library> makeOctomap(double resolution) {
-  return std::make_unique<TreeLibrary<QuietOctomap<Node>>>(resolution);
+  return std::make_unique<TreeLibrary<QuietOctomap<Node>, octomap::KeySet>>(resolution);
 }
 
 }  // namespace rhmap::bench

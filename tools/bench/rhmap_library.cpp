@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
+#include "rhmap/core/key_set.hpp"
 #include "rhmap/octree/octree.hpp"
 #include "tree_library.hpp"
 
@@ -16,6 +17,8 @@ constexpr auto kMapTitles = [] {
 std::span<const Title> scanTitles() { return scans::kTitles; }
 std::span<const Title> mapTitles() { return kMapTitles; }
 
-std::unique_ptr<Library> makeRhmap(double resolution) { return std::make_unique<TreeLibrary<OcTree>>(resolution); }
+std::unique_ptr<Library> makeRhmap(double resolution) {
+  return std::make_unique<TreeLibrary<OcTree, KeySet>>(resolution);
+}
 
 }  // namespace rhmap::bench

@@ -7,7 +7,7 @@
 #include "library.hpp"
 #include "rhmap/core/key.hpp"
 
-/// Ways for a scan to get into a map; over any tree with OctoMap's names.
+/// Ways for a scan to get into a map; over any tree and any set of keys with OctoMap's names.
 namespace rhmap::bench::scans {
 
 template <class Tree>
@@ -34,13 +34,13 @@ void insertWithChanges(Tree& tree, const WorldScan& scan, double max_range) {
 }
 
 /// The loop of octomap_server's insertScan().
-template <class Tree>
+template <class Tree, class KeySet>
 void insertLikeOctomapServer(Tree& tree, const WorldScan& scan, double max_range) {
-  octomap::KeySet free_cells;
-  octomap::KeySet occupied_cells;
+  KeySet free_cells;
+  KeySet occupied_cells;
   octomap::KeyRay ray;
   for (octomap::point3d point : scan.points) {
-    const bool in_range = (point - scan.origin).norm() <= max_range;
+    const bool in_range = max_range < 0 || (point - scan.origin).norm() <= max_range;
     if (!in_range) point = scan.origin + (point - scan.origin).normalized() * static_cast<float>(max_range);
     if (tree.computeRayKeys(scan.origin, point, ray)) free_cells.insert(ray.begin(), ray.end());
     octomap::OcTreeKey key;
@@ -59,8 +59,9 @@ inline constexpr std::array kTitles{
     Title{"octomap_server: computeRayKeys, KeySet, updateNode", "scan"},
 };
 
-template <class Tree>
+template <class Tree, class KeySet>
 inline constexpr std::array<void (*)(Tree&, const WorldScan&, double), kTitles.size()> kFunctions{
-    insert<Tree>, insertDiscretized<Tree>, insertLazily<Tree>, insertWithChanges<Tree>, insertLikeOctomapServer<Tree>};
+    insert<Tree>, insertDiscretized<Tree>, insertLazily<Tree>, insertWithChanges<Tree>,
+    insertLikeOctomapServer<Tree, KeySet>};
 
 }  // namespace rhmap::bench::scans

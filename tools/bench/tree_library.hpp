@@ -12,15 +12,15 @@
 
 namespace rhmap::bench {
 
-/// Any tree with OctoMap's names as a Library.
-template <class Tree>
+/// Any tree with OctoMap's names, and the set of keys that goes with it, as a Library.
+template <class Tree, class KeySet>
 class TreeLibrary final : public Library {
  public:
   explicit TreeLibrary(double resolution) : resolution_(resolution) {}
 
   Sample insert(std::size_t benchmark, const WorldScan& scan, double max_range) override {
     Tree& tree = treeOf(benchmark);
-    const double seconds = timed([&] { scans::kFunctions<Tree>[benchmark](tree, scan, max_range); });
+    const double seconds = timed([&] { scans::kFunctions<Tree, KeySet>[benchmark](tree, scan, max_range); });
     return {seconds, 1, tree.size()};
   }
 

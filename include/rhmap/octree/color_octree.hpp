@@ -47,6 +47,9 @@ class ColorOcTreeNode : public OcTreeNode {
   Color color;
 };
 
+/// "(r g b)".
+std::ostream& operator<<(std::ostream& out, const ColorOcTreeNode::Color& c);
+
 extern template class OcTreeBaseImpl<ColorOcTreeNode, AbstractOccupancyOcTree>;
 extern template class OccupancyOcTreeBase<ColorOcTreeNode>;
 

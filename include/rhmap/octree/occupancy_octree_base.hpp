@@ -11,6 +11,7 @@
 #include "rhmap/octree/overrides.hpp"
 #include "rhmap/octree/scan_apply.hpp"
 #include "rhmap/octree/scan_marking.hpp"
+#include "rhmap/octree/surface.hpp"
 
 namespace rhmap {
 
@@ -130,6 +131,22 @@ class OccupancyOcTreeBase : public OcTreeBaseImpl<NODE, AbstractOccupancyOcTree>
   /// of the key space. False with `end` untouched: origin outside of the tree, or no direction.
   virtual bool castRay(const point3d& origin, const point3d& direction, point3d& end, bool ignoreUnknown = false,
                double maxRange = -1.0) const;
+
+  /// Unit normals, towards free space, of the surface around the cell at `point`: marching cubes. False, with none,
+  /// if the point is outside of the tree. `unknownStatus`: unknown cells count as occupied.
+  bool getNormals(const point3d& point, std::vector<point3d>& normals, bool unknownStatus = true) const {
+    return surfaceNormals(
+        *this->store_, this->keys_, point, unknownStatus,
+        [this](const NODE* node) { return this->isNodeOccupied(node); }, normals);
+  }
+
+  /// Where a ray enters the cell (of depth 16) with this centre, and `delta` (in lengths of `direction`) further on: to
+  /// sharpen castRay's answer. False, with `intersection` untouched, if it misses the cell. As in OctoMap a cell behind
+  /// the origin is met, too, on its far side.
+  virtual bool getRayIntersection(const point3d& origin, const point3d& direction, const point3d& center,
+                                  point3d& intersection, double delta = 0.0) const {
+    return intersectCell(this->getResolution(), origin, direction, center, delta, intersection);
+  }
 
   // --- limits of insertPointCloud ---
 

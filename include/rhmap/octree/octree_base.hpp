@@ -16,8 +16,11 @@
 #include "rhmap/octree/key_space.hpp"
 #include "rhmap/octree/ray.hpp"
 #include "rhmap/octree/structure.hpp"
+#include "rhmap/octree/unknown_space.hpp"
 
 namespace rhmap {
+
+using octomap::point3d_list;
 
 /// A tree of NODEs without a notion of occupancy, under OctoMap's names and with OctoMap's answers. `INTERFACE` is
 /// AbstractOcTree or AbstractOccupancyOcTree.
@@ -153,6 +156,13 @@ class OcTreeBaseImpl : public INTERFACE {
   /// Expands every leaf down to depth 16.
   void expand() override { structure::expandAll(*store_, expander()); }
 
+  /// Appends the centres [m] of what is unknown in a box, at `depth` (0: cells). As OctoMap samples it: without the
+  /// first layer along each axis, with the last, and with corners outside of the tree wrapped around (see sampleBox). A
+  /// box that is inside out holds nothing. Throws std::length_error for a box of more than 2^33 nodes.
+  void getUnknownLeafCenters(point3d_list& node_centers, point3d pmin, point3d pmax, unsigned int depth = 0) const {
+    forEachUnknown(*store_, keys_, pmin, pmax, depth, [&](const point3d& centre) { node_centers.push_back(centre); });
+  }
+
   // --- statistics ---
 
   /// Number of nodes, inner ones included.
@@ -188,7 +198,7 @@ class OcTreeBaseImpl : public INTERFACE {
   void getMetricMax(double& x, double& y, double& z) override { spread(cachedBounds().max, x, y, z); }
   void getMetricMax(double& x, double& y, double& z) const override { spread(knownBounds().max, x, y, z); }
   void getMetricSize(double& x, double& y, double& z) override { spread(cachedBounds().size(), x, y, z); }
-  void getMetricSize(double& x, double& y, double& z) const { spread(knownBounds().size(), x, y, z); }
+  virtual void getMetricSize(double& x, double& y, double& z) const { spread(knownBounds().size(), x, y, z); }
 
   // --- rays ---
 
