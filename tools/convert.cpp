@@ -30,7 +30,7 @@ constexpr std::uint64_t kMaxCells = 1'000'000'000;  ///< 12 GB of points; more i
 constexpr const char* kFooter =
     "The first line of IN says what it is, the extension of OUT what it becomes:\n"
     "  .bt    most likely states. From .ot: pruned like OctoMap's writeBinary(); from .bt: byte for byte the same\n"
-    "  .ot    all log-odds. From .bt: those of the clamping thresholds; from .ot: byte for byte the same\n"
+    "  .ot    all log-odds. From .bt: those of the clamping thresholds; from .ot: byte for byte the same, colours too\n"
     "  .ply, .pcd  centres of the occupied cells, all of the finest size: a larger leaf gives one point for each of "
     "the\n"
     "         smallest cubes in it, in the order of the tree\n"
@@ -50,7 +50,8 @@ unsigned everyThirdBit(std::uint64_t index) {
 std::uint64_t numCells(unsigned depth) { return std::uint64_t{1} << (3 * (kTreeDepth - static_cast<int>(depth))); }
 
 /// Centres [m] of the occupied cells, larger leaves cut into the smallest cubes in the order of expanded leaves.
-std::vector<octomap::point3d> occupiedCells(const std::string& path, const OcTree& tree) {
+template <class TREE>
+std::vector<octomap::point3d> occupiedCells(const std::string& path, const TREE& tree) {
   std::uint64_t count = 0;
   for (auto leaf = tree.begin_leafs(); leaf != tree.end_leafs(); ++leaf) {
     if (tree.isNodeOccupied(*leaf)) count += numCells(leaf.getDepth());
@@ -85,7 +86,8 @@ void convert(const ConvertOptions& options) {
   const std::string extension = extensionOf(options.output);
   LoadedMap map = loadMap(options.input);
   if (extension == ".ply" || extension == ".pcd") {
-    const auto cells = occupiedCells(options.input, *map.tree);
+    const auto cells =
+        visitTree(*map.tree, [&](const auto& tree) { return occupiedCells(options.input, tree); });
     extension == ".ply" ? io::writePly(options.output, cells) : io::writePcd(options.output, cells);
     return;
   }

@@ -20,7 +20,7 @@ namespace {
 constexpr unsigned kTreeDepth = 16;
 
 constexpr const char* kFooter =
-    "MAP is a .bt file, whatever the type of its tree, or the .ot file of an OcTree.\n"
+    "MAP is a .bt file, whatever the type of its tree, or the .ot file of an OcTree, ColorOcTree or OcTreeStamped.\n"
     "Bounds are those of all known space, free space included. OctoMap's memory is its own estimate of its tree for\n"
     "this map; what it occupies in truth is some times as much.\n\n"
     "Examples:\n"
@@ -66,20 +66,26 @@ std::size_t octomapMemory(std::size_t nodes, std::size_t leaves) {
   return sizeof(Base) + nodes * sizeof(octomap::OcTreeNode) + (nodes - leaves) * 8 * sizeof(void*);
 }
 
+/// Counts the leaves, by what they are and how large.
+template <class TREE>
+void gatherLeaves(const TREE& tree, MapInfo& info) {
+  for (auto leaf = tree.begin_leafs(); leaf != tree.end_leafs(); ++leaf) {
+    const bool is_occupied = tree.isNodeOccupied(*leaf);
+    count(is_occupied ? info.occupied : info.free, leaf.getSize());
+    count((is_occupied ? info.occupied_at : info.free_at)[leaf.getDepth()], leaf.getSize());
+  }
+}
+
 MapInfo gather(const std::string& path) {
   const LoadedMap map = loadMap(path);
-  const OcTree& tree = *map.tree;
+  const AbstractOccupancyOcTree& tree = *map.tree;
   MapInfo info;
   info.path = path;
   info.format = map.format;
   info.header = map.header;
   info.file_bytes = std::filesystem::file_size(path);
   info.nodes = tree.size();
-  for (auto leaf = tree.begin_leafs(); leaf != tree.end_leafs(); ++leaf) {
-    const bool is_occupied = tree.isNodeOccupied(*leaf);
-    count(is_occupied ? info.occupied : info.free, leaf.getSize());
-    count((is_occupied ? info.occupied_at : info.free_at)[leaf.getDepth()], leaf.getSize());
-  }
+  visitTree(tree, [&](const auto& typed) { gatherLeaves(typed, info); });
   tree.getMetricMin(info.min[0], info.min[1], info.min[2]);
   tree.getMetricMax(info.max[0], info.max[1], info.max[2]);
   info.memory = tree.memoryUsage();

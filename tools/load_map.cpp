@@ -2,10 +2,14 @@
 #include "load_map.hpp"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
+#include <algorithm>
+#include <array>
 #include <fstream>
 #include <optional>
 #include <stdexcept>
+#include <string_view>
 
 #include "arguments.hpp"
 
@@ -19,8 +23,10 @@ void loadHeader(const std::string& path, LoadedMap& map) try {
   if (!format) return;
   map.format = *format;
   map.header = readMapHeader(in);
-  if (map.format == MapFormat::kFull && map.header.id != "OcTree")
-    throw std::runtime_error(fmt::format(".ot files of the type {} cannot be read; one of: OcTree", map.header.id));
+  constexpr std::array<std::string_view, 3> kTypes{"OcTree", "ColorOcTree", "OcTreeStamped"};
+  if (map.format == MapFormat::kFull && std::find(kTypes.begin(), kTypes.end(), map.header.id) == kTypes.end())
+    throw std::runtime_error(fmt::format(".ot files of the type {} cannot be read; one of: {}", map.header.id,
+                                         fmt::join(kTypes, ", ")));
 } catch (const std::runtime_error& reason) {
   throw std::runtime_error(path + ": " + reason.what());
 }
@@ -32,8 +38,8 @@ LoadedMap loadMap(const std::string& path) {
   LoadedMap map;
   loadHeader(path, map);
   std::unique_ptr<AbstractOcTree> tree = readMapFile(path);
-  map.tree.reset(dynamic_cast<OcTree*>(tree.get()));
-  if (!map.tree) throw std::runtime_error(path + ": not the map of an OcTree");
+  map.tree.reset(dynamic_cast<AbstractOccupancyOcTree*>(tree.get()));
+  if (!map.tree) throw std::runtime_error(path + ": not a map of occupancy");
   tree.release();
   if (map.header.id.empty())
     map.header = {.id = map.tree->getTreeType(),

@@ -184,6 +184,20 @@ TEST(OctomapMirror, SeesARegionThatIsPrunedAwayAndComesBack) {
   EXPECT_EQ(mirror.size(), 0U);
 }
 
+TEST(OctomapMirror, ShowsARootWithoutChildren) {
+  OcTree map(0.1), root(0.1);
+  OctomapMirror mirror(map);
+  EXPECT_EQ(test::bounds(mirror), std::vector<double>(6, 0.0)) << "OctoMap caches them";
+  root.updateNode(1, 1, 1, true);
+  for (unsigned i = 0; i < 8; ++i) root.deleteNodeChild(root.getRoot(), i);
+  map.swapContent(root);
+  mirror.sync();
+  EXPECT_EQ(mirror.size(), 1U);
+  EXPECT_TRUE(mirror == *toOctomap(map));
+  EXPECT_EQ(test::bounds(mirror), test::bounds(*toOctomap(map)));
+  EXPECT_NE(test::bounds(mirror), std::vector<double>(6, 0.0));
+}
+
 TEST(OctomapMirror, FollowsItsTreeWhereTreesSwapTheirNodes) {
   OcTree a(0.1), b(0.2);
   OctomapMirror of_a(a), of_b(b);

@@ -35,10 +35,18 @@ TEST_F(ConvertTest, ReproducesBtFilesByteForByte) {
 }
 
 TEST_F(ConvertTest, ReproducesOtFilesByteForByte) {
-  for (const std::string map : {"empty.ot", "one_hit.ot", "hit_and_miss.ot", "pruned_cube.ot", "varied_cube.ot"}) {
+  for (const std::string map : {"empty.ot", "one_hit.ot", "hit_and_miss.ot", "pruned_cube.ot", "varied_cube.ot",
+                                "one_color.ot", "one_stamped.ot"}) {
     runs("convert data/golden/" + map + " out.ot");
     EXPECT_TRUE(bytes("out.ot") == readFile(dataFile("golden/" + map))) << map;
   }
+}
+
+TEST_F(ConvertTest, TakesColourMapsToBtAndToClouds) {
+  runs("convert data/golden/one_color.ot out.bt");
+  EXPECT_TRUE(bytes("out.bt") == readFile(dataFile("golden/one_color.bt")));
+  runs("convert data/golden/one_color.ot out.ply");
+  EXPECT_NE(bytes("out.ply").find("element vertex 1\n"), std::string::npos);
 }
 
 TEST_F(ConvertTest, OtToBtIsOctomapsWriteBinary) {

@@ -64,14 +64,23 @@ TEST_F(InfoTest, ReadsTheBtOfAColorTree) {
   EXPECT_EQ(nlohmann::json::parse(runs("info data/golden/one_color.bt --json -"))["id"], "ColorOcTree");
 }
 
+TEST_F(InfoTest, ReadsTheOtOfColoursAndTimes) {
+  for (const std::string type : {"one_color", "one_stamped"}) {
+    const auto json = nlohmann::json::parse(runs("info data/golden/" + type + ".ot --json -"));
+    EXPECT_EQ(json["id"], type == "one_color" ? "ColorOcTree" : "OcTreeStamped");
+    EXPECT_EQ(json["occupied_leaves"], 1);
+  }
+}
+
 TEST_F(InfoTest, GoesByTheFirstLineAndNotByTheExtension) {
   std::filesystem::copy_file(dataFile("golden/one_hit.ot"), folder / "renamed.bt");
   EXPECT_EQ(nlohmann::json::parse(runs("info renamed.bt --json -"))["format"], "ot");
 }
 
 TEST_F(InfoTest, NamesTheTreesThatItKnowsWhenTheOtIsOfAnother) {
-  fails("info data/golden/one_color.ot", 1,
-        "data/golden/one_color.ot: .ot files of the type ColorOcTree cannot be read; one of: OcTree");
+  fails("info data/golden/one_counting.ot", 1,
+        "data/golden/one_counting.ot: .ot files of the type OcTreeBase cannot be read; one of: OcTree, ColorOcTree, "
+        "OcTreeStamped");
 }
 
 TEST_F(InfoTest, AMissingFileIsOneLine) { fails("info nowhere.bt", 1, "nowhere.bt: No such file"); }
