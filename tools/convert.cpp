@@ -86,8 +86,7 @@ void convert(const ConvertOptions& options) {
   const std::string extension = extensionOf(options.output);
   LoadedMap map = loadMap(options.input);
   if (extension == ".ply" || extension == ".pcd") {
-    const auto cells =
-        visitTree(*map.tree, [&](const auto& tree) { return occupiedCells(options.input, tree); });
+    const auto cells = visitTree(*map.tree, [&](const auto& tree) { return occupiedCells(options.input, tree); });
     extension == ".ply" ? io::writePly(options.output, cells) : io::writePcd(options.output, cells);
     return;
   }

@@ -25,8 +25,8 @@ void loadHeader(const std::string& path, LoadedMap& map) try {
   map.header = readMapHeader(in);
   constexpr std::array<std::string_view, 3> kTypes{"OcTree", "ColorOcTree", "OcTreeStamped"};
   if (map.format == MapFormat::kFull && std::find(kTypes.begin(), kTypes.end(), map.header.id) == kTypes.end())
-    throw std::runtime_error(fmt::format(".ot files of the type {} cannot be read; one of: {}", map.header.id,
-                                         fmt::join(kTypes, ", ")));
+    throw std::runtime_error(
+        fmt::format(".ot files of the type {} cannot be read; one of: {}", map.header.id, fmt::join(kTypes, ", ")));
 } catch (const std::runtime_error& reason) {
   throw std::runtime_error(path + ": " + reason.what());
 }

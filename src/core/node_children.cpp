@@ -50,7 +50,7 @@ void addSlab(const SlabHeader* slab) {
 void removeSlab(const SlabHeader* slab) {
   const Place place(slab);
   (*directory[place.piece].load(std::memory_order_acquire))[place.word].fetch_and(~place.bit,
-                                                                                std::memory_order_relaxed);
+                                                                                  std::memory_order_relaxed);
 }
 
 // Relaxed: whoever has a pointer to a node of another thread's map got it by some synchronisation.

@@ -103,8 +103,7 @@ ColorOcTreeNode* ColorOcTree::averageNodeColor(const OcTreeKey& key, std::uint8_
   return node;
 }
 
-ColorOcTreeNode* ColorOcTree::integrateNodeColor(const OcTreeKey& key, std::uint8_t r, std::uint8_t g,
-                                                 std::uint8_t b) {
+ColorOcTreeNode* ColorOcTree::integrateNodeColor(const OcTreeKey& key, std::uint8_t r, std::uint8_t g, std::uint8_t b) {
   ColorOcTreeNode* node = search(key);
   if (node == nullptr) return nullptr;
   const double p = node->getOccupancy();

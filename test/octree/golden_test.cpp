@@ -59,9 +59,9 @@ TEST_P(GoldenFile, IsReadAndWrittenBackByteByByte) {
 
 INSTANTIATE_TEST_SUITE_P(Files, GoldenFile,
                          testing::Values("empty.bt", "empty.ot", "hit_and_miss.bt", "hit_and_miss.ot", "one_color.ot",
-                                         "one_counting.ot", "one_stamped.ot", "one_hit.bt",
-                                         "one_hit.ot", "pruned_cube.bt", "pruned_cube.ot", "varied_cube.ot",
-                                         "varied_cube_const.bt", "varied_cube_ml.bt"),
+                                         "one_counting.ot", "one_stamped.ot", "one_hit.bt", "one_hit.ot",
+                                         "pruned_cube.bt", "pruned_cube.ot", "varied_cube.ot", "varied_cube_const.bt",
+                                         "varied_cube_ml.bt"),
                          [](const auto& info) {
                            std::string name = info.param;
                            std::replace(name.begin(), name.end(), '.', '_');

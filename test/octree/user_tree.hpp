@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // A node class and a tree class as users of OctoMap write them, with every habit that their code has: the names
-// `children`, `root`, `tree_size`, giving up a child array by hand, streams for the payload, own rules of pruning and of
-// inner values. Included once for each world; OCTO is the namespace that it derives from. No include guard on purpose.
+// `children`, `root`, `tree_size`, giving up a child array by hand, streams for the payload, own rules of pruning and
+// of inner values. Included once for each world; OCTO is the namespace that it derives from. No include guard on
+// purpose.
 
 class HeatNode : public OCTO::OcTreeNode {
  public:

@@ -139,7 +139,8 @@ class CountingUpdates : public OcTree {
 octomap::Pointcloud wall() {
   octomap::Pointcloud points;
   for (int i = -30; i < 30; ++i)
-    for (int k = -10; k < 10; ++k) points.push_back(3.03F, 0.05F * static_cast<float>(i), 0.05F * static_cast<float>(k));
+    for (int k = -10; k < 10; ++k)
+      points.push_back(3.03F, 0.05F * static_cast<float>(i), 0.05F * static_cast<float>(k));
   return points;
 }
 

@@ -43,16 +43,17 @@ class OccupancyOcTreeBase : public OcTreeBaseImpl<NODE, AbstractOccupancyOcTree>
   /// Points and origin in the map's frame; rays are cut at `maxrange` (negative: no limit). `discretize` keeps one ray
   /// for each end cell, to its centre.
   virtual void insertPointCloud(const Pointcloud& scan, const point3d& sensor_origin, double maxrange = -1.,
-                        bool lazy_eval = false, bool discretize = false);
+                                bool lazy_eval = false, bool discretize = false);
   /// Points and origin in a frame with this pose in the map.
   virtual void insertPointCloud(const Pointcloud& scan, const point3d& sensor_origin, const pose6d& frame_origin,
-                        double maxrange = -1., bool lazy_eval = false, bool discretize = false);
+                                double maxrange = -1., bool lazy_eval = false, bool discretize = false);
   /// Points in the sensor's frame, with the sensor's pose.
-  virtual void insertPointCloud(const ScanNode& scan, double maxrange = -1., bool lazy_eval = false, bool discretize = false);
+  virtual void insertPointCloud(const ScanNode& scan, double maxrange = -1., bool lazy_eval = false,
+                                bool discretize = false);
 
   /// Inserts ray by ray, so that a cell is updated as often as rays cross it. As in OctoMap `maxrange` has no effect.
   virtual void insertPointCloudRays(const Pointcloud& scan, const point3d& sensor_origin, double maxrange = -1.,
-                            bool lazy_eval = false);
+                                    bool lazy_eval = false);
 
   /// One ray: misses up to `end`, a hit there. Longer than `maxrange` (> 0): misses up to there only. False if an end
   /// is outside of the tree.
@@ -130,7 +131,7 @@ class OccupancyOcTreeBase : public OcTreeBaseImpl<NODE, AbstractOccupancyOcTree>
   /// centre of the cell where it stopped: beyond `maxRange` (> 0), in an unknown cell (unless ignored), at the border
   /// of the key space. False with `end` untouched: origin outside of the tree, or no direction.
   virtual bool castRay(const point3d& origin, const point3d& direction, point3d& end, bool ignoreUnknown = false,
-               double maxRange = -1.0) const;
+                       double maxRange = -1.0) const;
 
   /// Unit normals, towards free space, of the surface around the cell at `point`: marching cubes. False, with none,
   /// if the point is outside of the tree. `unknownStatus`: unknown cells count as occupied.

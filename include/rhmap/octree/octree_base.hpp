@@ -316,9 +316,9 @@ class OcTreeBaseImpl : public INTERFACE {
 
   std::unique_ptr<BlockStore<NODE>> store_ = std::make_unique<BlockStore<NODE>>();
   KeySpace keys_;
-  const double& resolution = keys_.resolution();           // [m]
+  const double& resolution = keys_.resolution();                // [m]
   const double& resolution_factor = keys_.inverseResolution();  // [1/m]
-  std::optional<Bounds> bounds_;  // the last that the non-const getters computed
+  std::optional<Bounds> bounds_;                                // the last that the non-const getters computed
 
  private:
   static void spread(const std::array<double, 3>& v, double& x, double& y, double& z) {

@@ -45,11 +45,11 @@ struct ScanCounts {
 ScanMasks markScan(const KeySpace& keys, const octomap::Pointcloud& scan, const point3d& origin,
                    const ScanMarkingConfig& config, ScanCounts& counts);
 
-/// The cells of a scan as OctoMap collects them: in its sets, filled in its order, which is what decides about the order
-/// in which it updates the cells.
+/// The cells of a scan as OctoMap collects them: in its sets, filled in its order, which is what decides about the
+/// order in which it updates the cells.
 struct ScanCells {
   using Keys = octomap::unordered_ns::unordered_set<OcTreeKey, OcTreeKey::KeyHash>;  // std or, mostly, std::tr1
-  Keys free, occupied;  ///< no cell is in both
+  Keys free, occupied;                                                               ///< no cell is in both
 };
 
 /// Occupied wins: takes the cells that are in both sets out of the first.

@@ -12,9 +12,7 @@ namespace rhmap {
 /// equal only if their times are, too. .ot files do not hold the times, as OctoMap's do not.
 class OcTreeNodeStamped : public OcTreeNode {
  public:
-  bool operator==(const OcTreeNodeStamped& other) const {
-    return value == other.value && timestamp == other.timestamp;
-  }
+  bool operator==(const OcTreeNodeStamped& other) const { return value == other.value && timestamp == other.timestamp; }
   void copyData(const OcTreeNodeStamped& from) {
     OcTreeNode::copyData(from);
     timestamp = from.timestamp;

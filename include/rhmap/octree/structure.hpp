@@ -223,8 +223,7 @@ void updateInner(BlockStore<NODE>& store) {
   store.touchAll();  // leaves, too: who wrote into nodes by hand calls this afterwards
   for (int depth = kTreeDepth - 1; depth >= 0; --depth)
     forEachAtDepth(store, static_cast<unsigned>(depth), [&](NodeRef at) {
-      if (const Octet<NODE> children = store.children(at); children.mask != 0)
-        recompute(store, at, children);
+      if (const Octet<NODE> children = store.children(at); children.mask != 0) recompute(store, at, children);
     });
 }
 
