@@ -40,7 +40,8 @@ TEST_P(Messages, ArriveAlikeInBothDirections) {
   EXPECT_TRUE(from_us.sent_on == sentBy(stockWorld()));
 }
 
-INSTANTIATE_TEST_SUITE_P(Sent, Messages, ::testing::Combine(::testing::Values("OcTree", "ColorOcTree"), ::testing::Bool()),
+INSTANTIATE_TEST_SUITE_P(Sent, Messages,
+                         ::testing::Combine(::testing::Values("OcTree", "ColorOcTree"), ::testing::Bool()),
                          [](const auto& info) {
                            return std::string(std::get<0>(info.param)) + (std::get<1>(info.param) ? "Binary" : "Full");
                          });

@@ -224,6 +224,7 @@ void OccupancyOcTreeBase<NODE>::updateInnerOccupancyRecurs(NODE* node, unsigned 
 
 template <class NODE>
 void OccupancyOcTreeBase<NODE>::toMaxLikelihoodRecurs(NODE* node, unsigned depth, unsigned max_depth) {
+  if (depth == 0) this->store_->touchAll();
   if (depth >= max_depth) return nodeToMaxLikelihood(node);
   const Octet<NODE> children = this->childrenOf(node);
   for (unsigned i = 0; i < 8; ++i)

@@ -20,7 +20,7 @@ void graph(const std::string& folder) {
     graph.addNode(scan, pose);
   }
   graph.connectPrevious();
-  std::printf("%zu scans, %u points\n", graph.size(), graph.getNumPoints());
+  std::printf("%zu scans, %zu points\n", graph.size(), std::size_t(graph.getNumPoints()));
   graph.writeBinary(folder + "/scans.graph");
   octomap::ScanGraph read_back;
   read_back.readBinary(folder + "/scans.graph");

@@ -24,6 +24,7 @@ void insertScan(octomap::OcTree* tree, const octomap::point3d& sensor, const oct
   octomap::OcTreeKey min, max;
   if (!tree->coordToKeyChecked(sensor, min) || !tree->coordToKeyChecked(sensor, max)) {
     OCTOMAP_ERROR_STR("Could not generate Key for origin " << sensor);
+    return;
   }
   octomap::KeyRay ray;
   octomap::KeySet free_cells, occupied_cells;
