@@ -12,6 +12,7 @@
 #include "rhmap/core/block_journal.hpp"
 #include "rhmap/core/block_pool.hpp"
 #include "rhmap/core/octet_pool.hpp"
+#include "rhmap/core/trunk.hpp"
 
 namespace rhmap {
 
@@ -138,6 +139,32 @@ class BlockStore {
 
   // --- changing ---
 
+  /// deepest(), quicker if the way to `key` is the one that trunk() remembers. Not const, though it writes nothing: it
+  /// is for those who change cells.
+  NodeRef deepestToChange(const OcTreeKey& key) {
+    if (!trunk_.leadsTo(key)) return deepest(key);
+    for (int slot = cellIndex(key, kRegionLevel); slot < kSlots; slot = parentSlot(slot >> 3))
+      if (trunk_.region->has(slot)) return {trunk_.region, slot};
+    return parent({trunk_.region, kTopSlot});
+  }
+
+  /// The way up from an existing region, remembered until it is asked for another.
+  Trunk<NODE>& trunk(Block* region) {
+    if (trunk_.region == region) return trunk_;
+    NodeRef child{region, kTopSlot};
+    for (typename Trunk<NODE>::Step& step : trunk_.steps) {
+      const NodeRef at = parent(child);
+      const Octet<NODE> siblings = octet(child.block, child.slot >> 3);
+      step.block = at.block;
+      step.node = node(at);
+      step.children = siblings.nodes;
+      step.mask = &child.block->mask[static_cast<std::size_t>(child.slot >> 3)];
+      child = at;
+    }
+    trunk_.region = region;
+    return trunk_;
+  }
+
   /// Makes the root of an empty tree.
   NodeRef createRoot() {
     root_ = createBlock({0, 0, 0}, 0, nullptr);
@@ -201,6 +228,7 @@ class BlockStore {
     if (!was_last) return;
     index_.erase(blockKey(block->corner, block->level));
     blocks_.release(block);
+    if (block == trunk_.region) trunk_.region = nullptr;
     if (block == root_) root_ = nullptr;
   }
 
@@ -226,6 +254,7 @@ class BlockStore {
     index_.clear();
     blocks_.clear();
     nodes_.clear();
+    trunk_.region = nullptr;
     root_ = nullptr;
     size_ = 0;
     ++version_;
@@ -310,6 +339,7 @@ class BlockStore {
   BlockPool blocks_;
   OctetPool<NODE> nodes_{this, childrenAround};
   Block* root_ = nullptr;
+  Trunk<NODE> trunk_;
   std::size_t size_ = 0;
   std::uint64_t version_ = 0;
   mutable BlockJournal journal_;  // who observes is no part of the map

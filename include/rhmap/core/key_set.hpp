@@ -70,6 +70,8 @@ class KeySet {
   using iterator = const_iterator;
 
   KeySet() = default;
+  /// The number of buckets to begin with means nothing here.
+  explicit KeySet(size_type /*buckets*/) {}
   template <std::input_iterator It>
   KeySet(It first, It last) {
     insert(first, last);

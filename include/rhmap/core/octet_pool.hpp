@@ -37,6 +37,7 @@ class OctetPool {
   /// Raw memory for eight nodes that may have children, being octet `number` of `block`.
   OctetRef allocateInner(Block* block, int number) {
     const OctetRef ref = allocate(inner_);
+    std::memset(static_cast<void*>(nodes(ref)), 0, kOctetBytes);  // Trunk compares octets whole
     owner(slabs_[ref >> kIndexBits], ref & kIndexMask) =
         reinterpret_cast<std::uintptr_t>(block) | static_cast<std::uintptr_t>(number);
     return ref;

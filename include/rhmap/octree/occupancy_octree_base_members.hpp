@@ -120,7 +120,7 @@ NODE* OccupancyOcTreeBase<NODE>::changeCell(NodeRef deepest, const OcTreeKey& ke
   changeLeaf(node, key, created, change);
   if (lazy_eval) return node;
   const NodeRef pruned =
-      hasOctomapsRules() ? structure::summariseAbove(*this->store_, leaf) : summariseByClass(leaf, NodeRef());
+      hasOctomapsRules() ? structure::summariseAbove(*this->store_, leaf, true) : summariseByClass(leaf, NodeRef());
   return pruned ? this->store_->node(pruned) : node;
 }
 
@@ -183,7 +183,7 @@ NodeRef OccupancyOcTreeBase<NODE>::summariseByClass(NodeRef child, NodeRef top) 
 
 template <class NODE>
 NODE* OccupancyOcTreeBase<NODE>::updateNode(const OcTreeKey& key, float log_odds_update, bool lazy_eval) {
-  const NodeRef deepest = this->store_->deepest(key);
+  const NodeRef deepest = this->store_->deepestToChange(key);
   if (deepest && !this->store_->hasChildren(deepest)) {  // the cell, or a pruned leaf that holds it
     NODE* node = this->store_->node(deepest);
     if (sensorModel().settled(node->getLogOdds(), log_odds_update)) return node;
@@ -194,7 +194,7 @@ NODE* OccupancyOcTreeBase<NODE>::updateNode(const OcTreeKey& key, float log_odds
 template <class NODE>
 NODE* OccupancyOcTreeBase<NODE>::setNodeValue(const OcTreeKey& key, float log_odds_value, bool lazy_eval) {
   const float value = std::min(std::max(log_odds_value, this->clamping_thres_min), this->clamping_thres_max);
-  return changeCell(this->store_->deepest(key), key, lazy_eval, [&](NODE* node) { node->setLogOdds(value); });
+  return changeCell(this->store_->deepestToChange(key), key, lazy_eval, [&](NODE* node) { node->setLogOdds(value); });
 }
 
 template <class NODE>

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <bit>
+#include <cstdint>
 #include <vector>
 
 #include "rhmap/core/block_store.hpp"
@@ -91,9 +93,27 @@ bool summarise(BlockStore<NODE>& store, NodeRef parent, NodeRef child) {
   return false;
 }
 
-/// summarise() for all ancestors of a node. Returns the highest one that was pruned, if any.
+/// recompute() for all nodes above a region, by OctoMap's rule; nodes whose children are what they were the last time
+/// get the value that they got then.
 template <class NODE>
-NodeRef summariseAbove(BlockStore<NODE>& store, NodeRef child) {
+void recomputeTrunk(BlockStore<NODE>& store, Block* region) {
+  const auto bits = [](const NODE* node) { return std::bit_cast<std::uint32_t>(node->getLogOdds()); };
+  for (typename Trunk<NODE>::Step& step : store.trunk(region).steps) {
+    const std::uint32_t before = bits(step.node);
+    if (!step.isAsSeen()) {
+      step.node->updateOccupancyChildren(Octet<NODE>{const_cast<NODE*>(step.children), *step.mask});
+      step.see(step.node->getLogOdds());
+    } else if (before != step.value) {
+      step.node->setLogOdds(std::bit_cast<float>(step.value));
+    }
+    if (bits(step.node) != before) store.touch(step.block);
+  }
+}
+
+/// summarise() for all ancestors of a node. Returns the highest one that was pruned, if any. `clustered`: the next node
+/// is probably one of the same region.
+template <class NODE>
+NodeRef summariseAbove(BlockStore<NODE>& store, NodeRef child, bool clustered = false) {
   NodeRef pruned;
   bool pruning = true;
   while (const NodeRef parent = store.parent(child)) {
@@ -102,6 +122,12 @@ NodeRef summariseAbove(BlockStore<NODE>& store, NodeRef child) {
       pruning = summarise(store, parent, child);
       if (pruning) pruned = parent;
     } else {
+      if constexpr (kOctomapsInnerValue<NODE> && sizeof(NODE) == sizeof(float)) {
+        if (clustered && child.slot >= kTopSlot && child.block->level == kRegionLevel) {
+          recomputeTrunk(store, child.block);
+          return pruned;
+        }
+      }
       recompute(store, parent, child);
     }
     child = parent;
