@@ -8,33 +8,21 @@
 #include <random>
 #include <sstream>
 
+#include "../octree/random_cells.hpp"
 #include "rhmap/octree/octree.hpp"
 
 namespace rhmap::test {
 
 /// The same random calls on a map and on stock OctoMap, all those that change nodes, sensor model or resolution.
-class RandomMaps {
+class RandomMaps : public RandomCells {
  public:
-  explicit RandomMaps(unsigned seed) : random_(seed) {
-    // Where the cells are: around the origin of the key space, at its corners, or anywhere near one point.
-    if (seed % 4 == 1) base_ = OcTreeKey(0, 65535 - 63, 0);
-    if (seed % 4 == 2) base_ = OcTreeKey(40000, 1000, 32760);
-  }
+  explicit RandomMaps(unsigned seed) : RandomCells(seed) {}
 
   OcTree& ours() { return *ours_; }
   OctomapOracle& theirs() { return *theirs_; }
   /// True once after values were written through node pointers, which a map cannot notice.
   bool wroteByPointer() { return std::exchange(wrote_by_pointer_, false); }
 
-  int below(int n) { return std::uniform_int_distribution(0, n - 1)(random_); }
-  double real(double low, double high) { return std::uniform_real_distribution(low, high)(random_); }
-
-  OcTreeKey key() {
-    const int extent = below(8) == 0 ? 64 : below(3) == 0 ? 20 : 6;
-    OcTreeKey k;
-    for (unsigned i = 0; i < 3; ++i) k[i] = static_cast<key_type>(base_[i] + below(extent));
-    return k;
-  }
   point3d point() { return ours_->keyToCoord(key()); }
 
   void step() {
@@ -190,8 +178,8 @@ class RandomMaps {
     if (below(4) == 0) return both([](auto& t) { t.clear(); });
     OcTree ours(ours_->getResolution());
     OctomapOracle theirs(theirs_->getResolution());
-    ours.updateNode(base_, true);
-    theirs.updateNode(base_, true);
+    ours.updateNode(base(), true);
+    theirs.updateNode(base(), true);
     ours_->swapContent(ours);
     theirs_->swapContent(theirs);
     if (below(4) == 0) return;
@@ -215,8 +203,6 @@ class RandomMaps {
     });
   }
 
-  std::mt19937 random_;
-  OcTreeKey base_{32760, 32765, 32750};
   std::unique_ptr<OcTree> ours_ = std::make_unique<OcTree>(0.1);
   std::unique_ptr<OctomapOracle> theirs_ = std::make_unique<OctomapOracle>(0.1);
   bool wrote_by_pointer_ = false;

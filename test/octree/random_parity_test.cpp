@@ -12,6 +12,7 @@
 #include <vector>
 
 #include "oracle.hpp"
+#include "random_cells.hpp"
 #include "rhmap/octree/octree.hpp"
 
 namespace rhmap {
@@ -56,30 +57,17 @@ std::map<std::vector<int>, bool> changedKeys(const Tree& tree) {
   return keys;
 }
 
-class RandomParity : public testing::TestWithParam<unsigned> {
+class RandomParity : public testing::TestWithParam<unsigned>, protected test::RandomCells {
  protected:
   explicit RandomParity()
-      : random_(GetParam()),
+      : RandomCells(GetParam()),
         resolution_(GetParam() % 3 == 0   ? 0.05
                     : GetParam() % 3 == 1 ? 0.1
                                           : 0.37) {
     ours_ = std::make_unique<OcTree>(resolution_);
     theirs_ = std::make_unique<OctomapOracle>(resolution_);
-    // Where the cells are: around the origin of the key space, at its corners, or anywhere near one point.
-    const unsigned place = GetParam() % 4;
-    if (place == 1) base_ = OcTreeKey(0, 65535 - 63, 0);
-    if (place == 2) base_ = OcTreeKey(40000, 1000, 32760);
   }
 
-  int below(int n) { return std::uniform_int_distribution(0, n - 1)(random_); }
-  double real(double low, double high) { return std::uniform_real_distribution(low, high)(random_); }
-
-  OcTreeKey key() {
-    const int extent = below(8) == 0 ? 64 : below(3) == 0 ? 20 : 6;
-    OcTreeKey k;
-    for (unsigned i = 0; i < 3; ++i) k[i] = static_cast<key_type>(base_[i] + below(extent));
-    return k;
-  }
   point3d point() {
     const OcTreeKey k = key();
     point3d p = ours_->keyToCoord(k);
@@ -115,9 +103,7 @@ class RandomParity : public testing::TestWithParam<unsigned> {
   }
   void expectSameEverywhere();
 
-  std::mt19937 random_;
   double resolution_;
-  OcTreeKey base_{32760, 32765, 32750};
   std::unique_ptr<OcTree> ours_;
   std::unique_ptr<OctomapOracle> theirs_;
   std::string last_;
@@ -294,8 +280,8 @@ void RandomParity::files() {
     case 3: {
       OcTree other(resolution_);
       OctomapOracle other_theirs(resolution_);
-      other.updateNode(base_, true);
-      other_theirs.updateNode(base_, true);
+      other.updateNode(base(), true);
+      other_theirs.updateNode(base(), true);
       ours_->swapContent(other);
       theirs_->swapContent(other_theirs);
       if (below(4) != 0) {

@@ -22,6 +22,7 @@
 #include "rhmap/octree/map_file.hpp"
 #include "rhmap/octree/octree.hpp"
 #include "rhmap/octree/stamped_octree.hpp"
+#include "tree_pair.hpp"
 
 /// The clock of this program, liboctomap.so included: stands still unless a test moves it.
 static std::time_t now = 1000;
@@ -36,32 +37,20 @@ namespace {
 using test::otBytes;
 
 template <class OURS, class THEIRS>
-class Pair : public testing::TestWithParam<unsigned> {
+class Pair : public test::TreePair<OURS, THEIRS> {
  protected:
-  Pair() : random_(GetParam()) {}
+  using test::TreePair<OURS, THEIRS>::ours_;
+  using test::TreePair<OURS, THEIRS>::theirs_;
+  using test::TreePair<OURS, THEIRS>::below;
+  using test::TreePair<OURS, THEIRS>::key;
+  using test::TreePair<OURS, THEIRS>::both;
 
-  int below(int n) { return std::uniform_int_distribution(0, n - 1)(random_); }
-  OcTreeKey key() {
-    const int extent = below(3) == 0 ? 24 : 4;
-    return {static_cast<key_type>(32764 + below(extent)), static_cast<key_type>(32764 + below(extent)),
-            static_cast<key_type>(32764 + below(extent))};
-  }
-  octomap::Pointcloud scan() {
-    octomap::Pointcloud points;
-    for (int i = below(60); i >= 0; --i) points.push_back(ours_.keyToCoord(key()));
-    return points;
-  }
-  template <class F>
-  void both(F&& call) {
-    call(ours_);
-    call(theirs_);
-  }
   /// Calls that every occupancy tree has.
   void occupancyStep() {
     switch (below(10)) {
       case 0: {
-        const octomap::Pointcloud points = scan();
-        const point3d origin = ours_.keyToCoord(key());
+        const octomap::Pointcloud points = this->scan();
+        const point3d origin = this->point();
         const bool lazy = below(4) == 0, discretize = below(2) == 0;
         return both([&](auto& t) { t.insertPointCloud(points, origin, 1.3, lazy, discretize); });
       }
@@ -93,10 +82,6 @@ class Pair : public testing::TestWithParam<unsigned> {
     ASSERT_NE(dynamic_cast<OURS*>(read.get()), nullptr);
     ASSERT_TRUE(otBytes(*read) == s.str());
   }
-
-  std::mt19937 random_;
-  OURS ours_{0.1};
-  THEIRS theirs_{0.1};
 };
 
 // --- colour ---

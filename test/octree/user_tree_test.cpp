@@ -3,13 +3,13 @@
 #include <gtest/gtest.h>
 
 #include <memory>
-#include <random>
 #include <sstream>
 #include <vector>
 
 #include "oracle.hpp"
 #include "rhmap/octree/color_octree.hpp"
 #include "rhmap/octree/octree.hpp"
+#include "tree_pair.hpp"
 
 #define OCTO_KEY octomap::OcTreeKey
 namespace on_octomap {
@@ -29,31 +29,16 @@ namespace {
 
 using test::otBytes;
 
-class UserTree : public testing::TestWithParam<unsigned> {
+class UserTree : public test::TreePair<on_rhmap::HeatTree, on_octomap::HeatTree> {
  protected:
-  UserTree() : random_(GetParam()) {}
-
-  int below(int n) { return std::uniform_int_distribution(0, n - 1)(random_); }
-  OcTreeKey key() {
-    const int extent = below(3) == 0 ? 24 : 4;
-    return {static_cast<key_type>(32764 + below(extent)), static_cast<key_type>(32764 + below(extent)),
-            static_cast<key_type>(32764 + below(extent))};
-  }
-  template <class F>
-  void both(F&& call) {
-    call(ours_);
-    call(theirs_);
-  }
-
   void step() {
     switch (below(16)) {
       case 0: {
-        octomap::Pointcloud scan;
-        for (int i = below(60); i >= 0; --i) scan.push_back(ours_.keyToCoord(key()));
-        const point3d origin = ours_.keyToCoord(key());
+        const octomap::Pointcloud points = scan();
+        const point3d origin = point();
         const double range = below(2) == 0 ? -1 : 1.1;
         const bool lazy = below(4) == 0, discretize = below(2) == 0;
-        return both([&](auto& t) { t.insertPointCloud(scan, origin, range, lazy, discretize); });
+        return both([&](auto& t) { t.insertPointCloud(points, origin, range, lazy, discretize); });
       }
       case 1: {
         const point3d from = ours_.keyToCoord(key()), to = ours_.keyToCoord(key());
@@ -98,10 +83,6 @@ class UserTree : public testing::TestWithParam<unsigned> {
       }
     }
   }
-
-  std::mt19937 random_;
-  on_rhmap::HeatTree ours_{0.1};
-  on_octomap::HeatTree theirs_{0.1};
 };
 
 TEST_P(UserTree, DoesTheSameOnBothLibraries) {
