@@ -6,6 +6,7 @@
 #include <cstdint>
 #include <new>
 #include <type_traits>
+#include <utility>
 
 #include "rhmap/core/block.hpp"
 #include "rhmap/core/block_index.hpp"
@@ -147,6 +148,9 @@ class BlockStore {
       if (trunk_.region->has(slot)) return {trunk_.region, slot};
     return parent({trunk_.region, kTopSlot});
   }
+
+  /// True if a cell of this region was the last to be changed, so that remembering the way up pays.
+  bool isChangedAgain(Block* region) { return std::exchange(last_changed_, region) == region; }
 
   /// The way up from an existing region, remembered until it is asked for another.
   Trunk<NODE>& trunk(Block* region) {
@@ -340,6 +344,7 @@ class BlockStore {
   OctetPool<NODE> nodes_{this, childrenAround};
   Block* root_ = nullptr;
   Trunk<NODE> trunk_;
+  const Block* last_changed_ = nullptr;  // to compare with, no more: it may be gone
   std::size_t size_ = 0;
   std::uint64_t version_ = 0;
   mutable BlockJournal journal_;  // who observes is no part of the map

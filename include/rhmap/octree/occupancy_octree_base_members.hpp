@@ -102,8 +102,7 @@ bool OccupancyOcTreeBase<NODE>::hasOctomapsRules() {
   return rules_(*this, [this] {
     using This = OccupancyOcTreeBase;
     const VirtualTable now(*this);
-    return now.agrees(own_members_, &This::expandNode) && now.agrees(own_members_, &This::pruneNode) &&
-           now.agrees(own_members_, &This::isNodeCollapsible) && now.agrees(own_members_, &This::updateNodeLogOdds) &&
+    return this->hasOctomapsStructure() && now.agrees(own_members_, &This::updateNodeLogOdds) &&
            now.agrees(own_members_, static_cast<NODE* (This::*)(const OcTreeKey&, float, bool)>(&This::updateNode)) &&
            now.agrees(own_members_, static_cast<NODE* (This::*)(const OcTreeKey&, bool, bool)>(&This::updateNode));
   });

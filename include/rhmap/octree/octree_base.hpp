@@ -14,6 +14,7 @@
 #include "rhmap/octree/abstract_octree.hpp"
 #include "rhmap/octree/iterators.hpp"
 #include "rhmap/octree/key_space.hpp"
+#include "rhmap/octree/overrides.hpp"
 #include "rhmap/octree/ray.hpp"
 #include "rhmap/octree/structure.hpp"
 #include "rhmap/octree/unknown_space.hpp"
@@ -112,9 +113,10 @@ class OcTreeBaseImpl : public INTERFACE {
   /// Replaces eight equal leaf children by this node; false if it is not collapsible.
   virtual bool pruneNode(NODE* node) {
     if (!isNodeCollapsible(node)) return false;
-    store_->touch(store_->locate(node).block);
-    if (nodeChildExists(node, 0)) node->copyData(*getNodeChild(node, 0));
-    structure::removeBelow(*store_, store_->locate(node));
+    const NodeRef at = store_->locate(node);
+    store_->touch(at.block);
+    if (const Octet<NODE> children = store_->children(at); children.has(0)) node->copyData(children.nodes[0]);
+    structure::removeBelow(*store_, at);
     return true;
   }
 
@@ -151,7 +153,11 @@ class OcTreeBaseImpl : public INTERFACE {
   void clear() override { store_->clear(); }
   /// Collapses level by level from the cells up, and stops at the first level where nothing collapsed, as OctoMap does.
   void prune() override {
-    structure::pruneLevels(*store_, [this](NodeRef at) { return pruneNode(store_->node(at)); });
+    if (hasOctomapsStructure()) {
+      structure::pruneLevels(*store_, [this](NodeRef at) { return structure::prune(*store_, at); });
+    } else {
+      structure::pruneLevels(*store_, [this](NodeRef at) { return pruneNode(store_->node(at)); });
+    }
   }
   /// Expands every leaf down to depth 16.
   void expand() override { structure::expandAll(*store_, expander()); }
@@ -284,6 +290,14 @@ class OcTreeBaseImpl : public INTERFACE {
     std::array<double, 3> size() const { return {max[0] - min[0], max[1] - min[1], max[2] - min[2]}; }
   };
 
+  /// No subclass has overridden OctoMap's rules of pruning and expanding.
+  bool hasOctomapsStructure() const {
+    const VirtualTable now(*this);
+    return now.agrees(own_members_, &OcTreeBaseImpl::expandNode) &&
+           now.agrees(own_members_, &OcTreeBaseImpl::pruneNode) &&
+           now.agrees(own_members_, &OcTreeBaseImpl::isNodeCollapsible);
+  }
+
   /// Expands by the rule of this object's class.
   auto expander() {
     return [this](NodeRef at) { expandNode(store_->node(at)); };
@@ -321,6 +335,8 @@ class OcTreeBaseImpl : public INTERFACE {
   std::optional<Bounds> bounds_;                                // the last that the non-const getters computed
 
  private:
+  const VirtualTable own_members_{*this};  // before any subclass overrides them
+
   static void spread(const std::array<double, 3>& v, double& x, double& y, double& z) {
     x = v[0];
     y = v[1];

@@ -45,10 +45,22 @@ void collapse(BlockStore<NODE>& store, NodeRef parent, NodeRef octet) {
   store.removeNodes(octet.block, octet.slot, 0xff);
 }
 
+/// Replaces eight equal leaves by their parent; false if it is not collapsible.
+template <class NODE>
+bool prune(BlockStore<NODE>& store, NodeRef at) {
+  const NodeRef octet = store.childOctetOf(at);
+  if (!octet || !isUniform(store, octet)) return false;
+  collapse(store, at, octet);
+  return true;
+}
+
 /// Leaves a node without children.
 template <class NODE>
 void removeBelow(BlockStore<NODE>& store, NodeRef at) {
-  const std::uint8_t mask = store.children(at).mask;
+  const NodeRef all = store.childOctetOf(at);
+  if (!all) return;
+  const std::uint8_t mask = all.block->mask[static_cast<std::size_t>(all.slot)];
+  if (!store.anyHasChildren(all)) return store.removeNodes(all.block, all.slot, mask);
   for (int i = 0; i < 8; ++i)
     if (mask >> i & 1) {
       const NodeRef octet = store.childOctetOf(at);
@@ -110,8 +122,8 @@ void recomputeTrunk(BlockStore<NODE>& store, Block* region) {
   }
 }
 
-/// summarise() for all ancestors of a node. Returns the highest one that was pruned, if any. `clustered`: the next node
-/// is probably one of the same region.
+/// summarise() for all ancestors of a node. Returns the highest one that was pruned, if any. `clustered`: it is one of
+/// many single changes, which often come one after the other in the same region.
 template <class NODE>
 NodeRef summariseAbove(BlockStore<NODE>& store, NodeRef child, bool clustered = false) {
   NodeRef pruned;
@@ -123,7 +135,8 @@ NodeRef summariseAbove(BlockStore<NODE>& store, NodeRef child, bool clustered = 
       if (pruning) pruned = parent;
     } else {
       if constexpr (kOctomapsInnerValue<NODE> && sizeof(NODE) == sizeof(float)) {
-        if (clustered && child.slot >= kTopSlot && child.block->level == kRegionLevel) {
+        if (clustered && child.slot >= kTopSlot && child.block->level == kRegionLevel &&
+            store.isChangedAgain(child.block)) {
           recomputeTrunk(store, child.block);
           return pruned;
         }
