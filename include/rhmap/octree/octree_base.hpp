@@ -112,8 +112,8 @@ class OcTreeBaseImpl : public INTERFACE {
   }
   /// Replaces eight equal leaf children by this node; false if it is not collapsible.
   virtual bool pruneNode(NODE* node) {
-    if (!isNodeCollapsible(node)) return false;
     const NodeRef at = store_->locate(node);
+    if (!at || !isNodeCollapsible(node)) return false;
     store_->touch(at.block);
     if (const Octet<NODE> children = store_->children(at); children.has(0)) node->copyData(children.nodes[0]);
     structure::removeBelow(*store_, at);
