@@ -47,6 +47,15 @@ std::optional<FrameRange> parseFrames(const std::string& text) {
   return FrameRange{*first, *last};
 }
 
+FrameRange chooseFrames(const std::string& frames, const std::string& sequence, std::size_t num_scans) {
+  if (num_scans == 0) throw std::runtime_error(sequence + ": no scans");
+  if (frames.empty()) return {0, num_scans - 1};
+  const FrameRange range = *parseFrames(frames);
+  if (range.last >= num_scans)
+    throw UsageError(fmt::format("--frames: {} is not in the sequence; it has 0-{}", frames, num_scans - 1));
+  return range;
+}
+
 std::string extensionOf(const std::string& path) {
   std::string extension = std::filesystem::path(path).extension().string();
   std::transform(extension.begin(), extension.end(), extension.begin(),

@@ -25,6 +25,9 @@ struct FrameRange {
 /// "A-B" or "A"; nothing when it is neither or runs backwards.
 std::optional<FrameRange> parseFrames(const std::string& text);
 
+/// The scans that --frames means, all if it is empty; UsageError for scans that the sequence does not have.
+FrameRange chooseFrames(const std::string& frames, const std::string& sequence, std::size_t num_scans);
+
 /// What follows the last dot of a file name, in lower case and with the dot.
 std::string extensionOf(const std::string& path);
 

@@ -47,15 +47,6 @@ constexpr const char* kFooter =
     "  rhmap build data/maps/spherical_scan.graph map.bt map.ot --resolution 0.05 --json summary.json\n"
     "  rhmap build data/maps/spherical_scan.graph map.ot --max-range 20 --compare";
 
-FrameRange chooseFrames(const BuildOptions& options, std::size_t num_scans) {
-  if (num_scans == 0) throw std::runtime_error(options.sequence + ": no scans");
-  if (options.frames.empty()) return {0, num_scans - 1};
-  const FrameRange range = *parseFrames(options.frames);
-  if (range.last >= num_scans)
-    throw UsageError(fmt::format("--frames: {} is not in the sequence; it has 0-{}", options.frames, num_scans - 1));
-  return range;
-}
-
 /// The points of a scan from `min_range` [m] on, in the world frame.
 octomap::Pointcloud worldPoints(const io::Scan& scan, double min_range) {
   octomap::Pointcloud points;
@@ -115,7 +106,7 @@ void build(const BuildOptions& options) {
   const auto sequence = io::openSequence(options.sequence);
   BuildSummary summary;
   summary.options = options;
-  summary.frames = chooseFrames(options, sequence->size());
+  summary.frames = chooseFrames(options.frames, options.sequence, sequence->size());
 
   std::vector<std::string> kinds{options.mapper};
   if (options.compare) kinds.push_back("octomap");

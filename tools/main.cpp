@@ -55,6 +55,7 @@ int run(int argc, char** argv) {
   rhmap::tools::addBuild(app);
   rhmap::tools::addInfo(app);
   rhmap::tools::addConvert(app);
+  rhmap::tools::addEvaluate(app);
   try {
     checkVerb(app, argc, argv);
     app.parse(argc, argv);

@@ -11,5 +11,6 @@ namespace rhmap::tools {
 void addBuild(CLI::App& app);
 void addInfo(CLI::App& app);
 void addConvert(CLI::App& app);
+void addEvaluate(CLI::App& app);
 
 }  // namespace rhmap::tools

@@ -19,6 +19,7 @@ const std::map<std::string, std::set<std::string>> kMayInclude{
     {"compat", {"core", "octree"}},
     {"io", {"core", "octree"}},
     {"baseline", {"core", "octree"}},
+    {"eval", {"core", "octree", "io"}},
 };
 
 bool isSource(const fs::directory_entry& entry) {

@@ -9,6 +9,9 @@ namespace rhmap::test {
 namespace {
 
 struct HelpTest : ProgramTest {
+  /// As in a checkout after data/unpack.sh.
+  HelpTest() { linkUnpackedData(); }
+
   /// The commands below "Examples:", without the word rhmap.
   std::vector<std::string> examples(const std::string& help) const {
     const std::string prefix = "  rhmap ";
@@ -23,12 +26,12 @@ struct HelpTest : ProgramTest {
 
 TEST_F(HelpTest, ListsTheVerbs) {
   const std::string help = runs("--help");
-  for (const std::string verb : {"build", "info", "convert"})
+  for (const std::string verb : {"build", "info", "convert", "evaluate"})
     EXPECT_NE(help.find("\n  " + verb + " "), std::string::npos) << help;
 }
 
 TEST_F(HelpTest, EveryExampleRuns) {
-  for (const std::string verb : {"", "build ", "info ", "convert "}) {
+  for (const std::string verb : {"", "build ", "info ", "convert ", "evaluate "}) {
     const auto commands = examples(runs(verb + "--help"));
     EXPECT_GE(commands.size(), 2U) << verb;
     for (const std::string& command : commands) runs(command);

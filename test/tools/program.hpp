@@ -45,6 +45,12 @@ class ProgramTest : public testing::Test {
 
   ~ProgramTest() override { std::filesystem::remove_all(folder); }
 
+  /// Puts what data/unpack.sh unpacks where it would be in a checkout, build/data.
+  void linkUnpackedData() const {
+    std::filesystem::create_directory(folder / "build");
+    std::filesystem::create_directory_symlink(RHMAP_UNPACKED_DIR, folder / "build/data");
+  }
+
   /// Runs a line of the shell in the folder.
   Outcome shell(const std::string& line) const {
     const std::string logs = folder.string() + ".";
