@@ -7,6 +7,7 @@
 #include <cctype>
 #include <charconv>
 #include <cmath>
+#include <cstdint>
 #include <filesystem>
 #include <utility>
 
@@ -105,6 +106,31 @@ CLI::Validator countFrom1(std::string what) {
       [what = std::move(what)](const std::string& text) {
         return fmt::format("{} is not a number of {}; 1 or more", text, what);
       });
+}
+
+CLI::Validator countFrom0(std::string what) {
+  return makeValidator([](const std::string& text) { return parseNumber<std::uint64_t>(text).has_value(); },
+                       [what = std::move(what)](const std::string& text) {
+                         return fmt::format("{} is not a {}; a whole number, 0 or more", text, what);
+                       });
+}
+
+CLI::Validator rateAbove0() {
+  return makeValidator(
+      [](const std::string& text) {
+        const auto value = parseNumber<double>(text);
+        return value && std::isfinite(*value) && *value > 0;
+      },
+      [](const std::string& text) { return text + " is not a rate above 0; times a second, e.g. 10"; });
+}
+
+CLI::Validator probability() {
+  return makeValidator(
+      [](const std::string& text) {
+        const auto value = parseNumber<double>(text);
+        return value && *value >= 0 && *value <= 1;
+      },
+      [](const std::string& text) { return text + " is not a probability; 0 to 1, e.g. 0.02"; });
 }
 
 CLI::Validator frameRange() {

@@ -41,8 +41,15 @@ CLI::Validator outputFileOrStdout();
 CLI::Validator lengthAbove0();
 CLI::Validator lengthFrom0();
 
-/// Accepts a whole number from 1 on.
+/// Accepts a number of times a second above 0.
+CLI::Validator rateAbove0();
+
+/// Accepts a number from 0 to 1.
+CLI::Validator probability();
+
+/// Accepts a whole number from 1 on, or from 0 on; `what` is the noun for a wrong one.
 CLI::Validator countFrom1(std::string what);
+CLI::Validator countFrom0(std::string what);
 
 /// Accepts "A-B" and "A".
 CLI::Validator frameRange();

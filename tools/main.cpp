@@ -19,7 +19,8 @@ constexpr const char* kExamples =
     "Examples:\n"
     "  rhmap build data/maps/spherical_scan.graph map.bt\n"
     "  rhmap info data/maps/geb079.bt\n"
-    "  rhmap convert data/maps/geb079.bt cells.ply";
+    "  rhmap convert data/maps/geb079.bt cells.ply\n"
+    "  rhmap simulate crowd people --beams 16 --frames 3";
 
 enum ExitCode { kDone = 0, kFailed = 1, kWrongUsage = 2 };
 
@@ -56,6 +57,7 @@ int run(int argc, char** argv) {
   rhmap::tools::addInfo(app);
   rhmap::tools::addConvert(app);
   rhmap::tools::addEvaluate(app);
+  rhmap::tools::addSimulate(app);
   try {
     checkVerb(app, argc, argv);
     app.parse(argc, argv);

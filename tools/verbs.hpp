@@ -12,5 +12,6 @@ void addBuild(CLI::App& app);
 void addInfo(CLI::App& app);
 void addConvert(CLI::App& app);
 void addEvaluate(CLI::App& app);
+void addSimulate(CLI::App& app);
 
 }  // namespace rhmap::tools
