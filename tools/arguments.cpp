@@ -29,6 +29,11 @@ CLI::Validator makeValidator(Accepts accepts, Message message) {
   return CLI::Validator([=](std::string& text) { return accepts(text) ? std::string() : message(text); }, "");
 }
 
+bool isAbove0(const std::string& text) {
+  const auto value = parseNumber<double>(text);
+  return value && std::isfinite(*value) && *value > 0;
+}
+
 /// Why no file can be written under this name; empty if it can.
 std::string folderProblem(const std::string& path) {
   const auto folder = std::filesystem::path(path).parent_path();
@@ -80,12 +85,8 @@ CLI::Validator outputFileOrStdout() {
 }
 
 CLI::Validator lengthAbove0() {
-  return makeValidator(
-      [](const std::string& text) {
-        const auto value = parseNumber<double>(text);
-        return value && std::isfinite(*value) && *value > 0;
-      },
-      [](const std::string& text) { return text + " is not a length above 0; metres, e.g. 0.1"; });
+  return makeValidator(isAbove0,
+                       [](const std::string& text) { return text + " is not a length above 0; metres, e.g. 0.1"; });
 }
 
 CLI::Validator lengthFrom0() {
@@ -117,11 +118,7 @@ CLI::Validator countFrom0(std::string what) {
 
 CLI::Validator rateAbove0() {
   return makeValidator(
-      [](const std::string& text) {
-        const auto value = parseNumber<double>(text);
-        return value && std::isfinite(*value) && *value > 0;
-      },
-      [](const std::string& text) { return text + " is not a rate above 0; times a second, e.g. 10"; });
+      isAbove0, [](const std::string& text) { return text + " is not a rate above 0; times a second, e.g. 10"; });
 }
 
 CLI::Validator probability() {
@@ -145,6 +142,19 @@ CLI::Validator oneOf(std::string what, std::span<const std::string_view> words) 
       [what = std::move(what), words](const std::string& text) {
         return fmt::format("{} is not a {}; one of: {}", text, what, fmt::join(words, ", "));
       });
+}
+
+void addMinRange(CLI::App& verb, double& min_range) {
+  verb.add_option("--min-range", min_range, "Distance below which points are dropped")
+      ->type_name("M")
+      ->capture_default_str()
+      ->check(lengthFrom0());
+}
+
+void addFrames(CLI::App& verb, std::string& frames) {
+  verb.add_option("--frames", frames, "Scans A to B, both included (default: all)")
+      ->type_name("A-B")
+      ->check(frameRange());
 }
 
 void requireExists(const std::string& path) {

@@ -57,6 +57,10 @@ CLI::Validator frameRange();
 /// Accepts one of these words; `what` is the noun for a wrong one.
 CLI::Validator oneOf(std::string what, std::span<const std::string_view> words);
 
+/// Options of the verbs that read a sequence: points nearer than this [m] are dropped; the scans for chooseFrames().
+void addMinRange(CLI::App& verb, double& min_range);
+void addFrames(CLI::App& verb, std::string& frames);
+
 /// Throws "FILE: No such file" when there is none.
 void requireExists(const std::string& path);
 

@@ -151,17 +151,12 @@ void addBuild(CLI::App& app) {
   verb->add_option("--max-range", options->max_range, "Length at which rays are cut (default: none)")
       ->type_name("M")
       ->check(lengthAbove0());
-  verb->add_option("--min-range", options->min_range, "Distance below which points are dropped")
-      ->type_name("M")
-      ->capture_default_str()
-      ->check(lengthFrom0());
+  addMinRange(*verb, options->min_range);
   verb->add_option("--mapper", options->mapper, fmt::format("One of: {}", fmt::join(mapperKinds(), ", ")))
       ->type_name("NAME")
       ->capture_default_str()
       ->check(oneOf("mapper", mapperKinds()));
-  verb->add_option("--frames", options->frames, "Scans A to B, both included (default: all)")
-      ->type_name("A-B")
-      ->check(frameRange());
+  addFrames(*verb, options->frames);
   verb->add_option("--threads", options->threads, "Threads of one insertion (rhmap; OctoMap has one)")
       ->type_name("N")
       ->capture_default_str()

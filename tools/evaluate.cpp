@@ -140,18 +140,13 @@ void addEvaluate(CLI::App& app) {
   verb->add_option("--max-range", options->max_range, "Distance beyond which points are dropped (default: none)")
       ->type_name("M")
       ->check(lengthAbove0());
-  verb->add_option("--min-range", options->min_range, "Distance below which points are dropped")
-      ->type_name("M")
-      ->capture_default_str()
-      ->check(lengthFrom0());
+  addMinRange(*verb, options->min_range);
   verb->add_option("--ego-radius", options->ego_radius,
                    "Protocol kth: nearer points of classes 0 and 1 move; 3 in DynamicMap_Benchmark")
       ->type_name("M")
       ->capture_default_str()
       ->check(lengthFrom0());
-  verb->add_option("--frames", options->frames, "Scans A to B, both included (default: all)")
-      ->type_name("A-B")
-      ->check(frameRange());
+  addFrames(*verb, options->frames);
   verb->add_option("--json", options->json, "Write counts and rates as JSON, - for stdout")
       ->type_name("FILE")
       ->check(outputFileOrStdout());
