@@ -1,0 +1,68 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <limits>
+#include <vector>
+
+#include "fast_angle.hpp"
+#include "rhmap/removal/removal_config.hpp"
+#include "scan_points.hpp"
+
+namespace rhmap {
+
+/// How a spinning LiDAR's directions become pixels: m rows of equal elevation from the top down, n columns of azimuth.
+struct Projection {
+  int rows = 0, columns = 0;
+  float top = 0, bottom = 0;  ///< elevations of the first and the last row's middle [rad]
+
+  float rowsPerRadian() const { return static_cast<float>(rows - 1) / (top - bottom); }
+  /// May be outside of 0 ... rows - 1.
+  float rowOf(float x, float y, float z) const {
+    return (top - fastAtan2(z, std::sqrt(x * x + y * y))) * rowsPerRadian() + 0.5F;
+  }
+  int columnOf(float x, float y) const {
+    const float turn = fastAtan2(y, x) * (0.5F / kPi) + 0.5F;
+    const int column = static_cast<int>(turn * static_cast<float>(columns));
+    return column >= columns ? column - columns : column;
+  }
+};
+
+/// What the config says, and for what it does not say what the scan shows: the field of view is that of its points, the
+/// rows are as far apart as points of one azimuth mostly are.
+Projection measureProjection(const RangeImageConfig& config, const ScanPoints& scan);
+
+/// I^B_{m x n}: the nearest range of each pixel [m].
+class RangeImage {
+ public:
+  static constexpr float kEmpty = std::numeric_limits<float>::infinity();
+
+  RangeImage() = default;
+  RangeImage(const Projection& projection, const ScanPoints& scan);
+
+  const Projection& projection() const { return projection_; }
+  bool empty() const { return ranges_.empty(); }
+
+  float at(int row, int column) const { return ranges_[index(row, column)]; }
+  /// The point of the scan that a pixel shows; below 0: none.
+  std::int32_t pointAt(int row, int column) const { return points_[index(row, column)]; }
+
+  /// The nearest range in each pixel's window of (2 r + 1)^2 pixels; kEmpty where all of them are.
+  std::vector<float> nearestAround(int r) const;
+
+  /// Forgets what only the current scan needs: pointAt().
+  void dropPoints() { points_ = {}; }
+
+ private:
+  std::size_t index(int row, int column) const {
+    return static_cast<std::size_t>(row) * static_cast<std::size_t>(projection_.columns) +
+           static_cast<std::size_t>(column);
+  }
+
+  Projection projection_;
+  std::vector<float> ranges_;
+  std::vector<std::int32_t> points_;
+};
+
+}  // namespace rhmap

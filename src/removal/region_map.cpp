@@ -1,0 +1,102 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "region_map.hpp"
+
+#include <algorithm>
+#include <cstdlib>
+
+namespace rhmap {
+
+RegionMap::~RegionMap() {
+  columns_.forEach([](Column& column) { delete &column; });
+}
+
+Column& RegionMap::getOrCreate(key_type x, key_type y) {
+  if (Column* known = find(x, y)) return *known;
+  auto* column = new Column{.x = x, .y = y};
+  columns_.insert(nameOf(x, y), column);
+  for (const Cubes& cubes : read_(static_cast<key_type>(x << bits_), static_cast<key_type>(y << bits_), size())) {
+    Region& region = getOrCreate(*column, static_cast<key_type>(cubes.corner[2] >> bits_));
+    region.octants[static_cast<std::size_t>(octantOf(cubes.corner))].occupied |= cubes.occupied;
+    column->stale = true;
+  }
+  return *column;
+}
+
+Region& RegionMap::getOrCreate(Column& column, key_type z) {
+  auto& regions = column.regions;
+  const auto at = std::lower_bound(regions.begin(), regions.end(), z,
+                                   [](const auto& region, key_type value) { return region->z < value; });
+  if (at != regions.end() && (*at)->z == z) return **at;
+  auto region = std::make_unique<Region>(Region{.x = column.x, .y = column.y, .z = z});
+  region->octants = std::make_unique<Octant[]>(static_cast<std::size_t>(octants()));
+  return **regions.insert(at, std::move(region));
+}
+
+Octant* RegionMap::findOctant(const OcTreeKey& cube) const {
+  Region* region = find(static_cast<key_type>(cube[0] >> bits_), static_cast<key_type>(cube[1] >> bits_),
+                        static_cast<key_type>(cube[2] >> bits_));
+  return region == nullptr ? nullptr : &region->octants[static_cast<std::size_t>(octantOf(cube))];
+}
+
+std::pair<int, int> RegionMap::heights(const Region& region) const {
+  int low = 1 << 16, high = -1;
+  for (int o = 0; o < octants(); ++o) {
+    const std::uint64_t bits = region.octants[static_cast<std::size_t>(o)].occupied;
+    if (bits == 0) continue;
+    const int corner = cornerOf(region, o)[2];
+    for (int z = 0; z < 4; ++z) {
+      if ((bits & layerOf(z)) == 0) continue;
+      low = std::min(low, corner + z);
+      high = std::max(high, corner + z);
+    }
+  }
+  return {low, high};
+}
+
+void RegionMap::refreshHeights(Column& column) const {
+  if (!column.stale) return;
+  column.stale = false;
+  column.h_min = 0, column.h_max = -1;
+  for (const auto& region : column.regions) {
+    const auto [low, high] = heights(*region);
+    if (low > high) continue;
+    column.h_min = low;
+    break;
+  }
+  for (auto at = column.regions.rbegin(); at != column.regions.rend(); ++at) {
+    const auto [low, high] = heights(**at);
+    if (low > high) continue;
+    column.h_max = high;
+    break;
+  }
+}
+
+int RegionMap::countCubes(const Region& region) const {
+  int count = 0;
+  for (int o = 0; o < octants(); ++o) count += std::popcount(region.octants[static_cast<std::size_t>(o)].occupied);
+  return count;
+}
+
+void RegionMap::forgetBeyond(const OcTreeKey& centre, int distance) {
+  std::vector<Column*> far;
+  const int half = size() / 2;
+  columns_.forEach([&](Column& column) {
+    const int dx = (column.x << bits_) + half - centre[0], dy = (column.y << bits_) + half - centre[1];
+    if (std::max(std::abs(dx), std::abs(dy)) > distance) far.push_back(&column);
+  });
+  for (Column* column : far) {
+    columns_.erase(nameOf(column->x, column->y));
+    delete column;
+  }
+}
+
+std::size_t RegionMap::memoryUsage() const {
+  std::size_t bytes = columns_.memoryUsage();
+  columns_.forEach([&](const Column& column) {
+    bytes += sizeof(Column) + column.regions.capacity() * sizeof(column.regions[0]) +
+             column.regions.size() * (sizeof(Region) + static_cast<std::size_t>(octants()) * sizeof(Octant));
+  });
+  return bytes;
+}
+
+}  // namespace rhmap

@@ -1,0 +1,150 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <array>
+#include <bit>
+#include <cstddef>
+#include <cstdint>
+#include <functional>
+#include <memory>
+#include <utility>
+#include <vector>
+
+#include "rhmap/core/block_index.hpp"
+#include "rhmap/core/key.hpp"
+
+namespace rhmap {
+
+/// 4 x 4 x 4 cubes, bits in Morton order: the nodes under one depth-14 node of the tree.
+struct Octant {
+  std::uint64_t occupied = 0;  ///< cubes that are in the map
+  std::uint64_t ground = 0;    ///< of these, cubes of the ground
+  std::uint64_t hit = 0;       ///< cubes that scan Region::scan has hit
+  std::uint64_t fresh = 0;     ///< of these, cubes that were not in the map before
+  std::uint8_t hit_in_a_row = 0;  ///< scans that have hit it since a ray crossed it, up to 255
+  std::array<std::uint8_t, 64> hits{};  ///< scans that have hit the cube, up to 255
+};
+
+/// n . I = d: a plane of the ground, in cubes, from the map's origin.
+struct Plane {
+  std::array<float, 3> n{0, 0, 1};
+  float d = 0;
+
+  float above(float x, float y, float z) const { return n[0] * x + n[1] * y + n[2] * z - d; }
+};
+
+/// M_{I_r}: a region, a cube of 4, 8 or 16 cubes an axis, as octants in Morton order.
+struct Region {
+  key_type x, y, z;        ///< I_r >> bits
+  std::uint32_t scan = 0;  ///< the last scan that hit it
+  bool fitted = false;     ///< `plane` is the ground's
+  std::uint16_t at_fit = 0;  ///< cubes at the last try of a fit
+  Plane plane;
+  std::unique_ptr<Octant[]> octants;
+};
+
+/// The regions above each other at one O_r, and H{max,min}(O_r).
+struct Column {
+  key_type x, y;           ///< O_r >> bits
+  std::uint32_t scan = 0;  ///< the last scan that hit it
+  int h_min = 0, h_max = -1;  ///< keys of the lowest and highest cube; none: max < min
+  bool stale = false;      ///< cubes were removed since h_min and h_max were computed
+  std::vector<std::unique_ptr<Region>> regions;  ///< by z, ascending
+
+  Region* find(key_type z) const {
+    for (const auto& region : regions)
+      if (region->z == z) return region.get();
+    return nullptr;
+  }
+};
+
+/// What the removal knows of the map around the sensor: RH-Map's attributes of regions and cubes (Sec. III-B), in a hash
+/// map of columns. A cache: what is forgotten is read again from the tree when a scan comes by.
+class RegionMap {
+ public:
+  /// Some occupied cubes of the tree: an octant's lowest cube, and its cubes.
+  struct Cubes {
+    OcTreeKey corner;
+    std::uint64_t occupied;
+  };
+  /// Reads a column of the tree: all octants with occupied cubes between (x, y) and (x + size, y + size), in keys.
+  using Reader = std::function<std::vector<Cubes>(key_type x, key_type y, int size)>;
+
+  /// Regions of `size` cubes: 4, 8 or 16.
+  RegionMap(int size, Reader read) : bits_(std::countr_zero(static_cast<unsigned>(size))), read_(std::move(read)) {}
+  RegionMap(const RegionMap&) = delete;
+  RegionMap& operator=(const RegionMap&) = delete;
+  ~RegionMap();
+
+  int bits() const { return bits_; }
+  int size() const { return 1 << bits_; }
+  /// Octants of a region.
+  int octants() const { return 1 << 3 * (bits_ - 2); }
+
+  Column* find(key_type x, key_type y) const { return columns_.find(nameOf(x, y)); }
+  Region* find(key_type x, key_type y, key_type z) const {
+    const Column* column = find(x, y);
+    return column == nullptr ? nullptr : column->find(z);
+  }
+  Column& getOrCreate(key_type x, key_type y);
+  Region& getOrCreate(Column& column, key_type z);
+
+  /// Number of the octant of a cube in its region.
+  int octantOf(const OcTreeKey& cube) const {
+    const unsigned m = static_cast<unsigned>(size()) - 1;
+    return static_cast<int>(spread3((cube[0] & m) >> 2) | spread3((cube[1] & m) >> 2) << 1 |
+                            spread3((cube[2] & m) >> 2) << 2);
+  }
+  /// Lowest cube of octant `o` of a region.
+  OcTreeKey cornerOf(const Region& region, int o) const {
+    const auto u = static_cast<unsigned>(o);
+    return {static_cast<key_type>((region.x << bits_) + (gather3(u) << 2)),
+            static_cast<key_type>((region.y << bits_) + (gather3(u >> 1) << 2)),
+            static_cast<key_type>((region.z << bits_) + (gather3(u >> 2) << 2))};
+  }
+  Octant* findOctant(const OcTreeKey& cube) const;
+
+  /// Lowest and highest cube of a region, as keys; max < min if it has none.
+  std::pair<int, int> heights(const Region& region) const;
+  /// H{max,min} after removals.
+  void refreshHeights(Column& column) const;
+  int countCubes(const Region& region) const;
+
+  /// Forgets the columns farther than this many cubes (along an axis) from a cube.
+  void forgetBeyond(const OcTreeKey& centre, int distance);
+
+  std::size_t numColumns() const { return columns_.size(); }
+  std::size_t memoryUsage() const;
+
+  template <class F>
+  void forEachColumn(F&& visit) const {
+    columns_.forEach(visit);
+  }
+
+ private:
+  static std::uint64_t nameOf(key_type x, key_type y) { return std::uint64_t{x} | std::uint64_t{y} << 16; }
+
+  int bits_;
+  Reader read_;
+  BlockIndex<Column> columns_;
+};
+
+/// Bit of a cube in its octant.
+inline int bitOf(const OcTreeKey& cube) { return cellIndex(cube, kRegionLevel) & 63; }
+/// The cube of a bit, from the octant's lowest cube.
+inline OcTreeKey cubeOf(const OcTreeKey& corner, int bit) {
+  const auto b = static_cast<unsigned>(bit);
+  return {static_cast<key_type>(corner[0] + gather3(b)), static_cast<key_type>(corner[1] + gather3(b >> 1)),
+          static_cast<key_type>(corner[2] + gather3(b >> 2))};
+}
+/// The cubes of an octant with this z in it (0 ... 3).
+inline constexpr std::uint64_t layerOf(int z) {
+  return std::uint64_t{0x0f0f0f0f} << (4 * (z & 1)) << (32 * (z >> 1 & 1));
+}
+
+template <class F>
+void forEachBit(std::uint64_t bits, F&& visit) {
+  for (; bits != 0; bits &= bits - 1) visit(std::countr_zero(bits));
+}
+
+}  // namespace rhmap

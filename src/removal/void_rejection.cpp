@@ -1,0 +1,69 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "void_rejection.hpp"
+
+namespace rhmap {
+
+std::size_t rejectInVoid(const RegionMap& map, const GroundEstimation& ground, const ScanTrace& trace,
+                         const CellGrid& voids, const VoidConfig& config, double resolution,
+                         std::vector<RemovedOctant>& removed) {
+  // Cells with hits above the ground, and those of them that lie in the void.
+  CellGrid solid(voids.x0(), voids.y0(), voids.z0(), voids.side());
+  CellGrid moving = solid;
+  const auto grown_ground = static_cast<float>(config.grown_ground / resolution);
+  const auto above = [&](const Region& region, int o) {  // hits that may be taken out
+    const Octant& octant = region.octants[static_cast<std::size_t>(o)];
+    std::uint64_t cubes = octant.hit & ~octant.ground;
+    const std::uint64_t low = octant.hit & octant.ground;
+    if (low != 0 && config.grown_ground >= 0) {
+      const Column* column = map.find(region.x, region.y);
+      const OcTreeKey corner = map.cornerOf(region, o);
+      forEachBit(low, [&](int bit) {
+        const auto height = ground.heightAbove(map, *column, cubeOf(corner, bit));
+        if (height && *height > grown_ground) cubes |= std::uint64_t{1} << bit;
+      });
+    }
+    return cubes;
+  };
+  bool any = false;
+  for (const Region* region : trace.regions) {
+    for (int o = 0; o < map.octants(); ++o) {
+      const Octant& octant = region->octants[static_cast<std::size_t>(o)];
+      const std::uint64_t cubes = octant.hit & ~octant.ground;
+      if (octant.hit == 0) continue;
+      const OcTreeKey corner = map.cornerOf(*region, o);
+      const int x = corner[0] >> 2, y = corner[1] >> 2, z = corner[2] >> 2;
+      solid.set(x, y, z);
+      if (cubes != 0 && voids.at(x, y, z)) {
+        moving.set(x, y, z);
+        any = true;
+      }
+    }
+  }
+  if (!any) return 0;
+  for (int step = 0; step < config.growth; ++step) {
+    CellGrid grown = moving.dilated();
+    for (int y = 0; y < grown.side(); ++y)
+      for (int x = 0; x < grown.side(); ++x) grown.word(x, y) &= solid.word(x, y);
+    moving = std::move(grown);
+  }
+  std::size_t rejected = 0;
+  for (Region* region : trace.regions) {
+    for (int o = 0; o < map.octants(); ++o) {
+      Octant& octant = region->octants[static_cast<std::size_t>(o)];
+      if (octant.hit == 0) continue;
+      const OcTreeKey corner = map.cornerOf(*region, o);
+      if (!moving.at(corner[0] >> 2, corner[1] >> 2, corner[2] >> 2)) continue;
+      const std::uint64_t out = above(*region, o) & octant.occupied;
+      if (out == 0) continue;
+      rejected += static_cast<std::size_t>(std::popcount(out));
+      octant.occupied &= ~out;
+      octant.ground &= ~out;
+      if (const std::uint64_t known = out & ~octant.fresh; known != 0) removed.push_back({corner, known, false});
+      forEachBit(out, [&](int bit) { octant.hits[static_cast<std::size_t>(bit)] = 0; });
+      map.find(region->x, region->y)->stale = true;
+    }
+  }
+  return rejected;
+}
+
+}  // namespace rhmap
