@@ -78,14 +78,14 @@ RangeImage::RangeImage(const Projection& projection, const ScanPoints& scan) : p
   }
 }
 
-std::vector<float> RangeImage::nearestAround(int r) const {
+std::vector<float> RangeImage::nearestAround(int up, int beside) const {
   const int rows = projection_.rows, columns = projection_.columns;
-  std::vector<float> beside(ranges_.size()), around(ranges_.size());
+  std::vector<float> in_row(ranges_.size()), around(ranges_.size());
   for (int i = 0; i < rows; ++i) {
     const float* from = &ranges_[index(i, 0)];
-    float* to = &beside[index(i, 0)];
+    float* to = &in_row[index(i, 0)];
     for (int j = 0; j < columns; ++j) to[j] = from[j];
-    for (int shift = 1; shift <= r; ++shift) {
+    for (int shift = 1; shift <= beside; ++shift) {
       for (int j = 0; j < columns; ++j) {
         const float left = from[j >= shift ? j - shift : j - shift + columns];
         const float right = from[j + shift < columns ? j + shift : j + shift - columns];
@@ -95,9 +95,9 @@ std::vector<float> RangeImage::nearestAround(int r) const {
   }
   for (int i = 0; i < rows; ++i) {
     float* to = &around[index(i, 0)];
-    std::copy_n(&beside[index(i, 0)], columns, to);
-    for (int k = std::max(0, i - r); k <= std::min(rows - 1, i + r); ++k) {
-      const float* from = &beside[index(k, 0)];
+    std::copy_n(&in_row[index(i, 0)], columns, to);
+    for (int k = std::max(0, i - up); k <= std::min(rows - 1, i + up); ++k) {
+      const float* from = &in_row[index(k, 0)];
       for (int j = 0; j < columns; ++j) to[j] = std::min(to[j], from[j]);
     }
   }

@@ -48,8 +48,8 @@ class RangeImage {
   /// The point of the scan that a pixel shows; below 0: none.
   std::int32_t pointAt(int row, int column) const { return points_[index(row, column)]; }
 
-  /// The nearest range in each pixel's window of (2 r + 1)^2 pixels; kEmpty where all of them are.
-  std::vector<float> nearestAround(int r) const;
+  /// The nearest range in each pixel's window of (2 up + 1) x (2 beside + 1) pixels; kEmpty where all of them are.
+  std::vector<float> nearestAround(int up, int beside) const;
 
   /// Forgets what only the current scan needs: pointAt().
   void dropPoints() { points_ = {}; }

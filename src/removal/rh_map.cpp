@@ -114,7 +114,7 @@ class RhMap::Removal {
     clock.charge(Stage::kTransform);
     OcTreeKey sensor;
     if (!tree_.coordToKeyChecked(pose.trans(), sensor) || points_.size() == 0) return report;
-    ++scan_;
+    ++scan_; g_scan = scan_; g_reason = 3;
     const SensorView view(tree_.keySpace(), pose);
     const std::array<float, 3> position{pose.trans().x(), pose.trans().y(), pose.trans().z()};
     forgetFar(sensor);
@@ -128,7 +128,7 @@ class RhMap::Removal {
 
     if (!projection_) projection_ = measureProjection(config_.image, points_);
     RangeImage image(*projection_, points_);
-    ScanContext context{contextsOf(trace), view, Visibility(image, config_.visibility)};
+    ScanContext context{contextsOf(trace), view, Visibility(image, config_.visibility, tree_.getResolution())};
     clock.charge(Stage::kImage);
 
     RemovalResult result;
@@ -139,7 +139,7 @@ class RhMap::Removal {
     }
     clock.charge(Stage::kFreeSpace);
 
-    removeByScan(regions_, context, config_, tree_.getResolution(), scan_, 0, result);
+    removeByScan(regions_, context, config_, tree_.getResolution(), scan_, 0, false, ground_, result);
     clock.charge(Stage::kRemoval);
 
     if (insertion) report.inserted = write(trace);
@@ -175,8 +175,8 @@ class RhMap::Removal {
   }
 
   void lookAgain(const ScanContext& keyframe, std::uint32_t protect_scan, ScanReport& report) {
-    RemovalResult result;
-    removeByScan(regions_, keyframe, config_, tree_.getResolution(), protect_scan, config_.back_end.revert_hits, result);
+    RemovalResult result; g_reason = 5;
+    removeByScan(regions_, keyframe, config_, tree_.getResolution(), protect_scan, config_.back_end.revert_hits, true, ground_, result);
     erase(result, report);
   }
 

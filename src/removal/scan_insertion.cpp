@@ -87,6 +87,7 @@ ScanTrace insertScan(RegionMap& map, const ScanPoints& points, const OcTreeKey& 
     }
     std::uint8_t& hits = octant.hits[static_cast<std::size_t>(bit)];
     hits = static_cast<std::uint8_t>(hits + (hits < 255));
+    octant.missed[static_cast<std::size_t>(bit)] = 0;
   }
   return trace;
 }

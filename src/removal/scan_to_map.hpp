@@ -10,6 +10,7 @@
 #include "visibility.hpp"
 
 namespace rhmap {
+extern std::vector<std::array<int,8>>* g_dbg; extern int g_reason; extern int g_scan;
 
 /// ^{2d}S^W at one O_r, on its own.
 struct ColumnContext {
@@ -41,7 +42,7 @@ struct RemovalResult {
 /// S2M-R (Sec. III-C.2): removes from the map what the scan shows to have gone. `scan`: the number of the scan whose hits
 /// are not to be touched; 0: none.
 void removeByScan(RegionMap& map, const ScanContext& scan, const RemovalConfig& config, double resolution,
-                  std::uint32_t protect_scan, int revert_hits, RemovalResult& result);
+                  std::uint32_t protect_scan, int revert_hits, bool late, const class GroundEstimation& ground, RemovalResult& result);
 
 /// Eq. (8), with heights counted in cubes, both ends included.
 double ratio1(int scan_min, int scan_max, int map_min, int map_max);

@@ -34,24 +34,26 @@ class SensorView {
 /// one.
 class Visibility {
  public:
-  Visibility(const RangeImage& image, const VisibilityConfig& config)
-      : projection_(image.projection()),
-        nearest_(image.nearestAround(config.window)),
-        margin_(static_cast<float>(config.margin)) {}
+  Visibility(const RangeImage& image, const VisibilityConfig& config, double cube);
 
   /// A cube's centre in the sensor's frame [m].
   bool seesThrough(const std::array<float, 3>& p) const {
     const float row = projection_.rowOf(p[0], p[1], p[2]);
     if (!(row >= 0 && row < static_cast<float>(projection_.rows))) return false;
     const int column = projection_.columnOf(p[0], p[1]);
-    const float nearest = nearest_[static_cast<std::size_t>(static_cast<int>(row) * projection_.columns + column)];
     const float range = std::sqrt(p[0] * p[0] + p[1] * p[1] + p[2] * p[2]);
-    return nearest > range + margin_ && nearest < RangeImage::kEmpty;
+    const auto step = static_cast<std::size_t>(range * kStepsPerMetre);
+    const std::vector<float>& nearest = windows_[step < windowOf_.size() ? windowOf_[step] : windows_.size() - 1];
+    const float seen = nearest[static_cast<std::size_t>(static_cast<int>(row) * projection_.columns + column)];
+    return seen > range + margin_ && seen < RangeImage::kEmpty;
   }
 
  private:
+  static constexpr float kStepsPerMetre = 4;
+
   Projection projection_;
-  std::vector<float> nearest_;
+  std::vector<std::vector<float>> windows_;  // the nearest range around each pixel, from large windows to small ones
+  std::vector<std::uint8_t> windowOf_;       // which of them for cubes this many steps away; beyond: the last
   float margin_;
 };
 

@@ -46,6 +46,10 @@ std::size_t rejectInVoid(const RegionMap& map, const GroundEstimation& ground, c
       for (int x = 0; x < grown.side(); ++x) grown.word(x, y) &= solid.word(x, y);
     moving = std::move(grown);
   }
+  for (int step = 0; step < config.down; ++step) {
+    for (int y = 0; y < moving.side(); ++y)
+      for (int x = 0; x < moving.side(); ++x) moving.word(x, y) |= (moving.word(x, y) >> 1) & solid.word(x, y);
+  }
   std::size_t rejected = 0;
   for (Region* region : trace.regions) {
     for (int o = 0; o < map.octants(); ++o) {
@@ -53,13 +57,14 @@ std::size_t rejectInVoid(const RegionMap& map, const GroundEstimation& ground, c
       if (octant.hit == 0) continue;
       const OcTreeKey corner = map.cornerOf(*region, o);
       if (!moving.at(corner[0] >> 2, corner[1] >> 2, corner[2] >> 2)) continue;
-      const std::uint64_t out = above(*region, o) & octant.occupied;
+      std::uint64_t out = above(*region, o) & octant.occupied;
+      if (config.known < 255) forEachBit(out, [&](int bit) { if (octant.hits[bit] > config.known) out &= ~(std::uint64_t{1} << bit); });
       if (out == 0) continue;
       rejected += static_cast<std::size_t>(std::popcount(out));
       octant.occupied &= ~out;
       octant.ground &= ~out;
       if (const std::uint64_t known = out & ~octant.fresh; known != 0) removed.push_back({corner, known, false});
-      forEachBit(out, [&](int bit) { octant.hits[static_cast<std::size_t>(bit)] = 0; });
+      forEachBit(out, [&](int bit) { if (g_dbg) { auto k = cubeOf(corner, bit); g_dbg->push_back({k[0],k[1],k[2],(octant.fresh>>bit&1)?1:2,octant.hits[bit],g_scan}); } octant.hits[static_cast<std::size_t>(bit)] = 0; });
       map.find(region->x, region->y)->stale = true;
     }
   }

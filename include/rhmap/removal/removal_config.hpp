@@ -43,6 +43,7 @@ struct ContextConfig {
 struct VisibilityConfig {
   bool enabled = true;   ///< remove only cubes that the scan sees through
   double margin = 0.2;   ///< what is seen has to be this much farther than the cube [m]
+  double ball = 0.87, extra = 0;
   int window = 1;        ///< pixels looked at on each side of the cube's own
 };
 
@@ -54,8 +55,21 @@ struct VoidConfig {
   double surface = 0.2;       ///< d_s: this much of a ray's end is surface, not free [m]
   int tau_f = 6;              ///< scans in a row that must have crossed a cell and its 26 neighbours
   int tau_r = 20;             ///< scans in a row that must have hit a void cell to make it an ordinary one again
+  int down = 0; int known = 3;
   int growth = 2;             ///< steps (cells) from what is hit in the void to what belongs to it
   double grown_ground = 0.07; ///< growth takes also ground cubes this much above their plane [m]; below 0: none
+};
+
+struct Verdict { double misses = 1, per_hit = 0, cap = 20, region_share = 0, octant_share = 0; };
+struct SweepConfig {
+  bool enabled = true;
+  double max_range = 50;
+  bool ground = true;
+  Verdict ratio{1, 0, 20, 0.8, 0};
+  Verdict other{3, 0, 20, 0.8, 0};
+  Verdict late{1, 0, 20, 0.8, 0};
+  bool late_other = false;
+  double hit_weight = 0;
 };
 
 /// The back end: keyframes that look at the map again when the sensor has moved on (Sec. III-D).
@@ -89,6 +103,7 @@ struct RemovalConfig {
   ContextConfig context;
   VisibilityConfig visibility;
   VoidConfig free_space;
+  SweepConfig sweep;
   BackEndConfig back_end;
 };
 
