@@ -97,13 +97,30 @@ bool GroundEstimation::hasNeighbour(const RegionMap& map, const Region& region) 
   return false;
 }
 
+bool GroundEstimation::standsOut(const RegionMap& map, const Region& region, const Plane& plane) const {
+  if (config_.step <= 0) return false;
+  const auto size = static_cast<float>(map.size()), half = size / 2;
+  const float z = (plane.d - plane.n[0] * half - plane.n[1] * half) / plane.n[2];
+  for (int dx = -1; dx <= 1; ++dx) {
+    for (int dy = -1; dy <= 1; ++dy) {
+      if (dx == 0 && dy == 0) continue;
+      const Column* beside = map.find(static_cast<key_type>(region.x + dx), static_cast<key_type>(region.y + dy));
+      const Region* base = beside == nullptr ? nullptr : lowestRegion(map, *beside);
+      if (base == nullptr || !base->fitted) continue;
+      const float above = base->plane.above(half - static_cast<float>(dx) * size, half - static_cast<float>(dy) * size, z + size * static_cast<float>(int{region.z} - int{base->z}));
+      if (above * resolution_ > config_.step) return true;
+    }
+  }
+  return false;
+}
+
 void GroundEstimation::fit(const RegionMap& map, Region& region) const {
   std::vector<LocalCube> cubes;
   for (int o = 0; o < map.octants(); ++o)
     forEachBit(region.octants[static_cast<std::size_t>(o)].occupied, [&](int bit) { cubes.push_back(localOf(map, o, bit)); });
   region.at_fit = static_cast<std::uint16_t>(cubes.size());
   const std::optional<Plane> plane = fitGround(cubes, config_, resolution_);
-  region.fitted = plane.has_value();
+  region.fitted = plane.has_value() && !standsOut(map, region, *plane);
   if (plane) region.plane = *plane;
 }
 
@@ -159,6 +176,15 @@ void GroundEstimation::update(const RegionMap& map, const ScanTrace& trace) cons
     Region* lowest = lowestRegion(map, column);
     if (lowest == nullptr) continue;
     bool refitted = false;
+    if (lowest != column.base) {
+      for (const auto& region : column.regions) {
+        region->fitted = false;
+        region->at_fit = 0;
+        for (int o = 0; o < map.octants(); ++o) region->octants[static_cast<std::size_t>(o)].ground = 0;
+      }
+      column.base = lowest;
+      refitted = true;
+    }
     if (lowest->scan == trace.scan && isCandidate(map, *lowest) && hasNeighbour(map, *lowest)) {
       fit(map, *lowest);
       refitted = true;

@@ -33,6 +33,7 @@ class GroundEstimation {
  private:
   bool isCandidate(const RegionMap& map, const Region& region) const;
   bool hasNeighbour(const RegionMap& map, const Region& region) const;
+  bool standsOut(const RegionMap& map, const Region& region, const Plane& plane) const;
   void fit(const RegionMap& map, Region& region) const;
   void mark(const RegionMap& map, const Column& column, Region& region, bool only_fresh) const;
 

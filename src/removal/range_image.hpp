@@ -44,6 +44,7 @@ class RangeImage {
   const Projection& projection() const { return projection_; }
   bool empty() const { return ranges_.empty(); }
 
+  const std::vector<float>& ranges() const { return ranges_; }
   float at(int row, int column) const { return ranges_[index(row, column)]; }
   /// The point of the scan that a pixel shows; below 0: none.
   std::int32_t pointAt(int row, int column) const { return points_[index(row, column)]; }

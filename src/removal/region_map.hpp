@@ -49,6 +49,7 @@ struct Column {
   key_type x, y;           ///< O_r >> bits
   std::uint32_t scan = 0;  ///< the last scan that hit it
   int h_min = 0, h_max = -1;  ///< keys of the lowest and highest cube; none: max < min
+  Region* base = nullptr;  ///< the region that R-GPE looked for ground in
   bool stale = false;      ///< cubes were removed since h_min and h_max were computed
   std::vector<std::unique_ptr<Region>> regions;  ///< by z, ascending
 

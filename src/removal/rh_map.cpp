@@ -100,6 +100,14 @@ class RhMap::Removal {
         keyframes_(config.back_end, config.context.max_range) {}
 
   const RemovalConfig& config() const { return config_; }
+  std::array<int, 6> debugCube(const OcTreeKey& cube) const {
+    const Octant* octant = regions_.findOctant(cube);
+    if (octant == nullptr) return {-1};
+    int t = 0, s = 0;
+    const Region* region = regions_.find(cube[0] >> regions_.bits(), cube[1] >> regions_.bits(), cube[2] >> regions_.bits());
+    for (int o = 0; o < regions_.octants(); ++o) forEachBit(region->octants[o].occupied & ~region->octants[o].ground, [&](int bit) { (region->octants[o].missed[bit] > 0 ? t : s)++; });
+    return {octant->hits[bitOf(cube)], octant->missed[bitOf(cube)], t, s, free_space_.voids().at(cube[0]>>2,cube[1]>>2,cube[2]>>2),0};
+  }
   bool isGround(const OcTreeKey& cube) const {
     const Octant* octant = regions_.findOctant(cube);
     return octant != nullptr && (octant->ground >> bitOf(cube) & 1) != 0;
@@ -128,7 +136,7 @@ class RhMap::Removal {
 
     if (!projection_) projection_ = measureProjection(config_.image, points_);
     RangeImage image(*projection_, points_);
-    ScanContext context{contextsOf(trace), view, Visibility(image, config_.visibility, tree_.getResolution())};
+    ScanContext context{contextsOf(trace), view, Visibility(image, points_, config_.visibility, tree_.getResolution())};
     clock.charge(Stage::kImage);
 
     RemovalResult result;
@@ -275,6 +283,8 @@ ScanReport RhMap::removeDynamic(const octomap::Pointcloud& points, const octomap
 }
 
 ScanReport RhMap::finish() { return removal_->finish(); }
+
+std::array<int, 6> RhMap::debugCube(const OcTreeKey& cube) const { return removal_->debugCube(cube); }
 
 bool RhMap::isGround(const OcTreeKey& cube) const { return removal_->isGround(cube); }
 

@@ -60,17 +60,23 @@ struct Judge {
         region_s += std::popcount(candidates & ~bad);
         region_h += std::popcount(now & candidates);
       }
-      if (region_t == 0 || region_t < verdict.region_share * (region_t + region_s + config.sweep.hit_weight * region_h)) continue;
+      if (region_t == 0) continue;
+      const double region_share = region_t / double(region_t + region_s + config.sweep.hit_weight * region_h);
+      const Verdict& sure = config.sweep.sure;
+      if (region_share < verdict.region_share && region_share < sure.region_share) continue;
       for (int o = 0; o < map.octants(); ++o) {
         if (cand[o] == 0) continue;
         Octant& octant = region->octants[static_cast<std::size_t>(o)];
         const int t = std::popcount(seen[o]), s = std::popcount(octant.occupied & ~octant.ground & ~seen[o]);
-        if (t < verdict.octant_share * (t + s)) continue;
+        const double octant_share = t / double(t + s);
+        const bool first = region_share >= verdict.region_share && octant_share >= verdict.octant_share;
+        const bool second = region_share >= sure.region_share && octant_share >= sure.octant_share;
         std::uint64_t gone = 0;
         forEachBit(cand[o], [&](int bit) {
           const int hits = octant.hits[static_cast<std::size_t>(bit)];
           if (revert_hits > 0 && hits >= revert_hits) return;
-          if (octant.missed[static_cast<std::size_t>(bit)] >= verdict.misses + verdict.per_hit * std::min(double(hits), verdict.cap)) gone |= std::uint64_t{1} << bit;
+          const int m = octant.missed[static_cast<std::size_t>(bit)];
+          if ((first && m >= verdict.misses + verdict.per_hit * std::min(double(hits), verdict.cap)) || (second && m >= sure.misses + sure.per_hit * std::min(double(hits), sure.cap))) gone |= std::uint64_t{1} << bit;
         });
         if (gone == 0) continue;
         octant.occupied &= ~gone;

@@ -34,7 +34,7 @@ class SensorView {
 /// one.
 class Visibility {
  public:
-  Visibility(const RangeImage& image, const VisibilityConfig& config, double cube);
+  Visibility(const RangeImage& image, const ScanPoints& scan, const VisibilityConfig& config, double cube);
 
   /// A cube's centre in the sensor's frame [m].
   bool seesThrough(const std::array<float, 3>& p) const {
@@ -42,19 +42,27 @@ class Visibility {
     if (!(row >= 0 && row < static_cast<float>(projection_.rows))) return false;
     const int column = projection_.columnOf(p[0], p[1]);
     const float range = std::sqrt(p[0] * p[0] + p[1] * p[1] + p[2] * p[2]);
-    const auto step = static_cast<std::size_t>(range * kStepsPerMetre);
-    const std::vector<float>& nearest = windows_[step < windowOf_.size() ? windowOf_[step] : windows_.size() - 1];
-    const float seen = nearest[static_cast<std::size_t>(static_cast<int>(row) * projection_.columns + column)];
-    return seen > range + margin_ && seen < RangeImage::kEmpty;
+    const float behind = range + margin_;
+    const int i = static_cast<int>(row);
+    const float centre = ranges_[static_cast<std::size_t>(i * projection_.columns + column)];
+    if (!(centre > behind)) return false;
+    return isClear(i, column, range, p);
   }
 
  private:
   static constexpr float kStepsPerMetre = 4;
+  struct Window {
+    std::int8_t up, beside;
+  };
+  bool isClear(int row, int column, float range, const std::array<float, 3>& p) const;
 
   Projection projection_;
-  std::vector<std::vector<float>> windows_;  // the nearest range around each pixel, from large windows to small ones
-  std::vector<std::uint8_t> windowOf_;       // which of them for cubes this many steps away; beyond: the last
-  float margin_;
+  std::vector<float> ranges_;
+  std::vector<std::array<float, 3>> points_;
+  float segment_;
+  std::vector<Window> windows_;  // for cubes this many steps away; beyond: the last
+  float margin_, near_;
+  int min_seen_;
 };
 
 }  // namespace rhmap

@@ -11,6 +11,7 @@ struct GroundConfig {
   bool enabled = true;
   double r_gro = 0.15;          ///< r_gro of Eq. (5): a cube this near to its region's plane is ground [m]
   double min_upright = 0.707;   ///< least z component of a ground plane's normal; 0.707 is a slope of 45 degrees
+  double step = 0.4;
   int min_cubes = 6;            ///< fewer cubes make no plane
   int iterations = 3;           ///< plane fits, each to what the last one found to be ground
   double min_growth = 0.2;      ///< a region is fitted again when its cubes have grown by this share
@@ -27,7 +28,7 @@ struct RangeImageConfig {
 
 /// How a candidate for removal is found: scan contexts and their ratios (Sec. III-C.2).
 struct ContextConfig {
-  double max_range = 50;      ///< cubes and points farther away are not judged [m]
+  double max_range = 80;      ///< cubes and points farther away are not judged [m]
   double delta_1 = 0.2;       ///< delta_1: a column of regions is a candidate below this ratio_1, Eq. (8)
   double delta_2 = 0.2;       ///< delta_2: a region is a candidate below this ratio_2, Eq. (13)
   double r_1 = 1.0;           ///< r_1 of Eq. (9): step of range to the pixel above that makes a point dented [m]
@@ -43,7 +44,8 @@ struct ContextConfig {
 struct VisibilityConfig {
   bool enabled = true;   ///< remove only cubes that the scan sees through
   double margin = 0.2;   ///< what is seen has to be this much farther than the cube [m]
-  double ball = 0.87, extra = 0;
+  double ball = 0.87, extra = 0, near = 0.5;
+  int min_seen = 1; double segment = .2;
   int window = 1;        ///< pixels looked at on each side of the cube's own
 };
 
@@ -63,11 +65,12 @@ struct VoidConfig {
 struct Verdict { double misses = 1, per_hit = 0, cap = 20, region_share = 0, octant_share = 0; };
 struct SweepConfig {
   bool enabled = true;
-  double max_range = 50;
+  double max_range = 80;
   bool ground = true;
   Verdict ratio{1, 0, 20, 0.8, 0};
   Verdict other{3, 0, 20, 0.8, 0};
   Verdict late{1, 0, 20, 0.8, 0};
+  Verdict sure{10, 0, 20, 0.5, 0.0};
   bool late_other = false;
   double hit_weight = 0;
 };

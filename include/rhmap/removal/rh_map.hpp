@@ -63,6 +63,7 @@ class RhMap : public OcTree {
 
   /// Whether the cube is taken for ground (by what has been seen around it lately).
   bool isGround(const OcTreeKey& cube) const;
+  std::array<int, 6> debugCube(const OcTreeKey& cube) const;
 
  private:
   class Removal;
