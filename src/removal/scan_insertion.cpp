@@ -52,7 +52,7 @@ ScanTrace insertScan(RegionMap& map, const ScanPoints& points, const OcTreeKey& 
       region = &map.getOrCreate(*column, z);
       if (region->scan != scan) {
         region->scan = scan;
-        for (int o = 0; o < map.octants(); ++o) region->octants[static_cast<std::size_t>(o)].hit = region->octants[static_cast<std::size_t>(o)].fresh = 0;
+        for (int o = 0; o < map.octants(); ++o) region->octants[static_cast<std::size_t>(o)].hit = region->octants[static_cast<std::size_t>(o)].fresh = region->octants[static_cast<std::size_t>(o)].appeared = 0;
         trace.regions.push_back(region);
       }
     }
@@ -75,6 +75,7 @@ ScanTrace insertScan(RegionMap& map, const ScanPoints& points, const OcTreeKey& 
     if ((octant.hit & mask) != 0) continue;
     octant.hit |= mask;
     if (!insert) continue;
+    octant.doubted &= ~mask;
     if ((octant.occupied & mask) == 0) {
       octant.occupied |= mask;
       octant.fresh |= mask;
