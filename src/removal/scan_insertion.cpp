@@ -32,7 +32,7 @@ class ColumnGrid {
 }  // namespace
 
 ScanTrace insertScan(RegionMap& map, const ScanPoints& points, const OcTreeKey& sensor, double reach, double resolution,
-                     std::uint32_t scan, bool insert) {
+                     std::uint32_t scan, bool insert, int firm) {
   ScanTrace trace{.scan = scan};
   ColumnGrid grid(map, sensor, reach, resolution);
   const auto farthest = static_cast<float>(reach);
@@ -89,6 +89,7 @@ ScanTrace insertScan(RegionMap& map, const ScanPoints& points, const OcTreeKey& 
     std::uint8_t& hits = octant.hits[static_cast<std::size_t>(bit)];
     hits = static_cast<std::uint8_t>(hits + (hits < 255));
     octant.missed[static_cast<std::size_t>(bit)] = 0;
+    if (hits >= firm) octant.firm |= mask;
   }
   return trace;
 }

@@ -79,7 +79,7 @@ struct Judge {
             const Octant* n = map.findOctant(OcTreeKey(c[0] + 4 * dx, c[1] + 4 * dy, c[2] + 4 * dz));
             if (n == nullptr) continue;
             tn += std::popcount(n->occupied & n->doubted);
-            sn += std::popcount(n->occupied & ~n->doubted & ~n->ground);
+            sn += std::popcount(n->occupied & n->firm & ~n->doubted & ~n->ground);
           }
           octant_share = tn / double(tn + sn);
         }
@@ -93,7 +93,7 @@ struct Judge {
           if ((first && m >= verdict.misses + verdict.per_hit * std::min(double(hits), verdict.cap)) || (second && m >= sure.misses + sure.per_hit * std::min(double(hits), sure.cap))) gone |= std::uint64_t{1} << bit;
         });
         if (gone == 0) continue;
-        octant.occupied &= ~gone; octant.doubted &= ~gone;
+        octant.occupied &= ~gone; octant.doubted &= ~gone; octant.firm &= ~gone;
         octant.ground &= ~gone;
         forEachBit(gone, [&](int bit) { if (g_dbg) { auto k = cubeOf(map.cornerOf(*region, o), bit); g_dbg->push_back({k[0],k[1],k[2],reason,octant.hits[bit],g_scan,octant.missed[bit]}); } octant.hits[static_cast<std::size_t>(bit)] = 0; octant.missed[static_cast<std::size_t>(bit)] = 0; });
         column.stale = true;

@@ -59,7 +59,7 @@ std::size_t rejectInVoid(const RegionMap& map, const GroundEstimation& ground, c
           const Octant& n = r->octants[map.octantOf(OcTreeKey(c[0] + 4 * dx, c[1] + 4 * dy, c[2] + 4 * dz))];
           const std::uint64_t app = r->scan == trace.scan ? n.appeared : 0;
           tn += std::popcount(app);
-          sn += std::popcount(n.occupied & ~n.ground & ~app & ~n.doubted);
+          sn += std::popcount(n.occupied & n.firm & ~n.ground & ~app & ~n.doubted);
         }
         if (tn < look_back.around_share * (tn + sn)) appeared = 0;
       }
@@ -101,6 +101,8 @@ std::size_t rejectInVoid(const RegionMap& map, const GroundEstimation& ground, c
       rejected += static_cast<std::size_t>(std::popcount(out));
       octant.occupied &= ~out;
       octant.ground &= ~out;
+      octant.firm &= ~out;
+      octant.doubted &= ~out;
       if (const std::uint64_t known = out & ~octant.fresh; known != 0) removed.push_back({corner, known, false});
       forEachBit(out, [&](int bit) { if (g_dbg) { auto k = cubeOf(corner, bit); g_dbg->push_back({k[0],k[1],k[2],(octant.fresh>>bit&1)?1:2,octant.hits[bit],g_scan}); } octant.hits[static_cast<std::size_t>(bit)] = 0; });
       map.find(region->x, region->y)->stale = true;
