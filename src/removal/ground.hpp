@@ -6,33 +6,36 @@
 
 #include "region_map.hpp"
 #include "rhmap/removal/removal_config.hpp"
-#include "scan_insertion.hpp"
+#include "scan_trace.hpp"
 
 namespace rhmap {
 
 /// A cube in its region, counted from the region's lowest.
 struct LocalCube {
-  std::int16_t x, y, z;
+  int x, y, z;
 };
 
-/// R-GPF: the plane of the lower cubes (z <= mean), by principal components; fitted again to what is near it. Nothing if
-/// there are too few cubes or the plane is too steep. In cubes, from the region's lowest.
+/// R-GPF: the plane of the lower cubes (z <= mean), by principal components; fitted again to what is near it. Nothing
+/// if there are too few cubes or the plane is too steep. In cubes, from the region's lowest.
 std::optional<Plane> fitGround(std::span<const LocalCube> cubes, const GroundConfig& config, double resolution);
 
 /// R-GPE (Sec. III-C.1): finds the regions that hold ground, fits their planes, and marks their ground cubes.
 class GroundEstimation {
  public:
+  /// `resolution`: edge of a cube [m].
   GroundEstimation(const GroundConfig& config, double resolution);
 
   /// After a scan was inserted.
   void update(const RegionMap& map, const ScanTrace& trace) const;
 
-  /// How far a cube is above the ground of its column [cubes]; nothing where there is none.
-  std::optional<float> heightAbove(const RegionMap& map, const Column& column, const OcTreeKey& cube) const;
+  /// Of these ground cubes of an octant, those that are too far above their column's plane to be safe
+  /// (GroundConfig::thin).
+  std::uint64_t aboveThin(const RegionMap& map, const Column& column, const Region& region, std::size_t octant,
+                          std::uint64_t ground) const;
 
  private:
+  void setBase(Column& column, Region* lowest) const;
   bool isCandidate(const RegionMap& map, const Region& region) const;
-  bool hasNeighbour(const RegionMap& map, const Region& region) const;
   bool standsOut(const RegionMap& map, const Region& region, const Plane& plane) const;
   void fit(const RegionMap& map, Region& region) const;
   void mark(const RegionMap& map, const Column& column, Region& region, bool only_fresh) const;
@@ -41,8 +44,5 @@ class GroundEstimation {
   double resolution_;
   float r_gro_;  // [cubes]
 };
-
-/// The lowest region of a column that holds a cube; null if none does.
-Region* lowestRegion(const RegionMap& map, const Column& column);
 
 }  // namespace rhmap

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "keyframes.hpp"
 
+#include <algorithm>
 #include <cmath>
 
 namespace rhmap {

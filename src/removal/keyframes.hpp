@@ -5,7 +5,9 @@
 #include <deque>
 #include <optional>
 
-#include "scan_to_map.hpp"
+#include "range_image.hpp"
+#include "rhmap/removal/removal_config.hpp"
+#include "scan_context.hpp"
 
 namespace rhmap {
 
@@ -15,7 +17,7 @@ double informationContent(const RangeImage& image, double r_max);
 /// The back end's queue of keyframes (Sec. III-D).
 class Keyframes {
  public:
-  Keyframes(const BackEndConfig& config, double r_max) : config_(config), r_max_(r_max) {}
+  explicit Keyframes(const BackEndConfig& config) : config_(config) {}
 
   /// Whether a scan seen from here [m] is a keyframe: far, long or different enough from the last.
   bool wants(const std::array<float, 3>& position, std::uint32_t scan, double information);
@@ -26,8 +28,6 @@ class Keyframes {
   std::optional<ScanContext> pop(const std::array<float, 3>& position);
   /// The next keyframe, if any.
   std::optional<ScanContext> pop();
-
-  double rMax() const { return r_max_; }
 
  private:
   struct Keyframe {
@@ -40,7 +40,6 @@ class Keyframes {
     double information;
   };
   BackEndConfig config_;
-  double r_max_;
   std::optional<Last> last_;
   std::deque<Keyframe> waiting_;
 };

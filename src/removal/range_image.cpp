@@ -6,8 +6,8 @@
 namespace rhmap {
 namespace {
 
-constexpr int kSectors = 1800;       // 0.2 degrees: about what one shot of all beams covers
-constexpr float kSameBeam = 0.0012F; // [rad]; two points of a sector that are nearer in elevation are of one beam
+constexpr int kSectors = 1800;        // 0.2 degrees: about what one shot of all beams covers
+constexpr float kSameBeam = 0.0012F;  // [rad]; two points of a sector that are nearer in elevation are of one beam
 constexpr float kDegree = kPi / 180;
 
 /// The median step in elevation between neighbouring beams [rad]; 0 if there are too few points to tell.
@@ -76,32 +76,6 @@ RangeImage::RangeImage(const Projection& projection, const ScanPoints& scan) : p
       points_[at] = static_cast<std::int32_t>(k);
     }
   }
-}
-
-std::vector<float> RangeImage::nearestAround(int up, int beside) const {
-  const int rows = projection_.rows, columns = projection_.columns;
-  std::vector<float> in_row(ranges_.size()), around(ranges_.size());
-  for (int i = 0; i < rows; ++i) {
-    const float* from = &ranges_[index(i, 0)];
-    float* to = &in_row[index(i, 0)];
-    for (int j = 0; j < columns; ++j) to[j] = from[j];
-    for (int shift = 1; shift <= beside; ++shift) {
-      for (int j = 0; j < columns; ++j) {
-        const float left = from[j >= shift ? j - shift : j - shift + columns];
-        const float right = from[j + shift < columns ? j + shift : j + shift - columns];
-        to[j] = std::min(to[j], std::min(left, right));
-      }
-    }
-  }
-  for (int i = 0; i < rows; ++i) {
-    float* to = &around[index(i, 0)];
-    std::copy_n(&in_row[index(i, 0)], columns, to);
-    for (int k = std::max(0, i - up); k <= std::min(rows - 1, i + up); ++k) {
-      const float* from = &in_row[index(k, 0)];
-      for (int j = 0; j < columns; ++j) to[j] = std::min(to[j], from[j]);
-    }
-  }
-  return around;
 }
 
 }  // namespace rhmap

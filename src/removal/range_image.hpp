@@ -44,16 +44,14 @@ class RangeImage {
   const Projection& projection() const { return projection_; }
   bool empty() const { return ranges_.empty(); }
 
+  /// Row by row, from the top; empty pixels are kEmpty.
   const std::vector<float>& ranges() const { return ranges_; }
+  /// The points of the scan that the pixels show; below 0: none.
+  const std::vector<std::int32_t>& points() const { return points_; }
+
   float at(int row, int column) const { return ranges_[index(row, column)]; }
   /// The point of the scan that a pixel shows; below 0: none.
   std::int32_t pointAt(int row, int column) const { return points_[index(row, column)]; }
-
-  /// The nearest range in each pixel's window of (2 up + 1) x (2 beside + 1) pixels; kEmpty where all of them are.
-  std::vector<float> nearestAround(int up, int beside) const;
-
-  /// Forgets what only the current scan needs: pointAt().
-  void dropPoints() { points_ = {}; }
 
  private:
   std::size_t index(int row, int column) const {

@@ -6,42 +6,49 @@
 
 namespace rhmap {
 
+void Octant::remove(std::uint64_t cubes) {
+  occupied &= ~cubes;
+  ground &= ~cubes;
+  doubted &= ~cubes;
+  firm &= ~cubes;
+  forEachBit(cubes, [this](int bit) {
+    const auto i = static_cast<std::size_t>(bit);
+    hits[i] = 0;
+    misses[i] = 0;
+  });
+}
+
 RegionMap::~RegionMap() {
   columns_.forEach([](Column& column) { delete &column; });
 }
 
 Column& RegionMap::getOrCreate(key_type x, key_type y) {
   if (Column* known = find(x, y)) return *known;
-  auto* column = new Column{.x = x, .y = y};
+  auto* column = new Column{.x = x, .y = y, .regions = {}};
   columns_.insert(nameOf(x, y), column);
   for (const Cubes& cubes : read_(static_cast<key_type>(x << bits_), static_cast<key_type>(y << bits_), size())) {
     Region& region = getOrCreate(*column, static_cast<key_type>(cubes.corner[2] >> bits_));
-    region.octants[static_cast<std::size_t>(octantOf(cubes.corner))].occupied |= cubes.occupied;
+    region.octants[octantOf(cubes.corner)].occupied |= cubes.occupied;
     column->stale = true;
   }
+  refreshHeights(*column);
   return *column;
 }
 
-Region& RegionMap::getOrCreate(Column& column, key_type z) {
+Region& RegionMap::getOrCreate(Column& column, key_type z, std::size_t octants) {
   auto& regions = column.regions;
   const auto at = std::lower_bound(regions.begin(), regions.end(), z,
                                    [](const auto& region, key_type value) { return region->z < value; });
   if (at != regions.end() && (*at)->z == z) return **at;
-  auto region = std::make_unique<Region>(Region{.x = column.x, .y = column.y, .z = z});
-  region->octants = std::make_unique<Octant[]>(static_cast<std::size_t>(octants()));
+  auto region = std::make_unique<Region>(Region{.x = column.x, .y = column.y, .z = z, .plane = {}, .octants = {}});
+  region->octants.resize(octants);
   return **regions.insert(at, std::move(region));
-}
-
-Octant* RegionMap::findOctant(const OcTreeKey& cube) const {
-  Region* region = find(static_cast<key_type>(cube[0] >> bits_), static_cast<key_type>(cube[1] >> bits_),
-                        static_cast<key_type>(cube[2] >> bits_));
-  return region == nullptr ? nullptr : &region->octants[static_cast<std::size_t>(octantOf(cube))];
 }
 
 std::pair<int, int> RegionMap::heights(const Region& region) const {
   int low = 1 << 16, high = -1;
-  for (int o = 0; o < octants(); ++o) {
-    const std::uint64_t bits = region.octants[static_cast<std::size_t>(o)].occupied;
+  for (std::size_t o = 0; o < octants(); ++o) {
+    const std::uint64_t bits = region.octants[o].occupied;
     if (bits == 0) continue;
     const int corner = cornerOf(region, o)[2];
     for (int z = 0; z < 4; ++z) {
@@ -60,21 +67,9 @@ void RegionMap::refreshHeights(Column& column) const {
   for (const auto& region : column.regions) {
     const auto [low, high] = heights(*region);
     if (low > high) continue;
-    column.h_min = low;
-    break;
-  }
-  for (auto at = column.regions.rbegin(); at != column.regions.rend(); ++at) {
-    const auto [low, high] = heights(**at);
-    if (low > high) continue;
+    if (column.h_max < column.h_min) column.h_min = low;
     column.h_max = high;
-    break;
   }
-}
-
-int RegionMap::countCubes(const Region& region) const {
-  int count = 0;
-  for (int o = 0; o < octants(); ++o) count += std::popcount(region.octants[static_cast<std::size_t>(o)].occupied);
-  return count;
 }
 
 void RegionMap::forgetBeyond(const OcTreeKey& centre, int distance) {
@@ -94,7 +89,7 @@ std::size_t RegionMap::memoryUsage() const {
   std::size_t bytes = columns_.memoryUsage();
   columns_.forEach([&](const Column& column) {
     bytes += sizeof(Column) + column.regions.capacity() * sizeof(column.regions[0]) +
-             column.regions.size() * (sizeof(Region) + static_cast<std::size_t>(octants()) * sizeof(Octant));
+             column.regions.size() * (sizeof(Region) + octants() * sizeof(Octant));
   });
   return bytes;
 }

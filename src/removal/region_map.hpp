@@ -15,21 +15,29 @@
 
 namespace rhmap {
 
-/// 4 x 4 x 4 cubes, bits in Morton order: the nodes under one depth-14 node of the tree.
+/// 4 x 4 x 4 cubes, bits in Morton order: what lies under one depth-14 node of the tree.
 struct Octant {
   std::uint64_t occupied = 0;  ///< cubes that are in the map
   std::uint64_t ground = 0;    ///< of these, cubes of the ground
-  std::uint64_t hit = 0;       ///< cubes that scan Region::scan has hit
-  std::uint64_t doubted = 0;   ///< cubes that have been seen through since their last hit
-  std::uint64_t appeared = 0;
-  std::uint64_t firm = 0;
+  std::uint64_t doubted = 0;   ///< of these, cubes that have been seen through since their last hit
+  std::uint64_t firm = 0;      ///< of these, cubes that many scans have hit
+  // Of scan Region::scan:
+  std::uint64_t hit = 0;       ///< cubes that it has hit
   std::uint64_t fresh = 0;     ///< of these, cubes that were not in the map before
-  std::array<std::uint8_t, 8> hit_in_a_row{};  ///< scans that have hit it since a ray crossed it, up to 255
-  std::array<std::uint8_t, 64> hits{};    ///< scans that have hit the cube, up to 255
-  std::array<std::uint8_t, 64> missed{};  ///< scans that have seen through it since the last hit, up to 255
+  std::uint64_t appeared = 0;  ///< of these, cubes that past scans have seen through
+  // Counters up to 255:
+  std::array<std::uint8_t, 64> hits{};          ///< scans that have hit the cube
+  std::array<std::uint8_t, 64> misses{};        ///< scans that have seen through the cube since its last hit
+  std::array<std::uint8_t, 8> hits_in_a_row{};  ///< scans that have hit a cell of free space since a ray crossed it
+
+  /// Takes cubes out of the map.
+  void remove(std::uint64_t cubes);
 };
 
-/// n . I = d: a plane of the ground, in cubes, from the map's origin.
+/// One more, up to 255.
+inline void countUp(std::uint8_t& counter) { counter = static_cast<std::uint8_t>(counter + (counter < 255)); }
+
+/// n . I = d: a plane of the ground in cubes, from the lowest cube of its region.
 struct Plane {
   std::array<float, 3> n{0, 0, 1};
   float d = 0;
@@ -37,34 +45,50 @@ struct Plane {
   float above(float x, float y, float z) const { return n[0] * x + n[1] * y + n[2] * z - d; }
 };
 
-/// M_{I_r}: a region, a cube of 4, 8 or 16 cubes an axis, as octants in Morton order.
+/// M_{I_r}: a region, a cube of 4, 8 or 16 cubes an axis.
 struct Region {
-  key_type x, y, z;        ///< I_r >> bits
-  std::uint32_t scan = 0;  ///< the last scan that hit it
-  bool fitted = false;     ///< `plane` is the ground's
-  std::uint16_t at_fit = 0;  ///< cubes at the last try of a fit
+  key_type x = 0, y = 0, z = 0;  ///< I_r >> bits
+  std::uint32_t scan = 0;        ///< the last scan that hit it
+  std::uint16_t at_fit = 0;      ///< cubes at the last try to fit a plane
+  bool fitted = false;           ///< `plane` is the ground's
   Plane plane;
-  std::unique_ptr<Octant[]> octants;
+  std::vector<Octant> octants;  ///< in Morton order
+
+  bool isOccupied() const {
+    for (const Octant& octant : octants)
+      if (octant.occupied != 0) return true;
+    return false;
+  }
+  int countCubes() const {
+    int count = 0;
+    for (const Octant& octant : octants) count += std::popcount(octant.occupied);
+    return count;
+  }
 };
 
 /// The regions above each other at one O_r, and H{max,min}(O_r).
 struct Column {
-  key_type x, y;           ///< O_r >> bits
-  std::uint32_t scan = 0;  ///< the last scan that hit it
-  int h_min = 0, h_max = -1;  ///< keys of the lowest and highest cube; none: max < min
-  Region* base = nullptr;  ///< the region that R-GPE looked for ground in
-  bool stale = false;      ///< cubes were removed since h_min and h_max were computed
+  key_type x = 0, y = 0;                         ///< O_r >> bits
+  int h_min = 0, h_max = -1;                     ///< keys of the lowest and the highest cube; none: max < min
+  bool stale = false;                            ///< cubes were removed since h_min and h_max were computed
+  Region* base = nullptr;                        ///< where R-GPE looks for ground: the lowest region with a cube
   std::vector<std::unique_ptr<Region>> regions;  ///< by z, ascending
 
-  Region* find(key_type z) const {
+  Region* find(int z) const {
     for (const auto& region : regions)
       if (region->z == z) return region.get();
     return nullptr;
   }
+  /// The lowest region that holds a cube; null if none does.
+  Region* lowest() const {
+    for (const auto& region : regions)
+      if (region->isOccupied()) return region.get();
+    return nullptr;
+  }
 };
 
-/// What the removal knows of the map around the sensor: RH-Map's attributes of regions and cubes (Sec. III-B), in a hash
-/// map of columns. A cache: what is forgotten is read again from the tree when a scan comes by.
+/// What the removal knows of the map around the sensor: RH-Map's attributes of regions and cubes (Sec. III-B), in a
+/// hash map of columns. A cache: what is forgotten is read again from the tree when a scan comes by.
 class RegionMap {
  public:
   /// Some occupied cubes of the tree: an octant's lowest cube, and its cubes.
@@ -84,36 +108,36 @@ class RegionMap {
   int bits() const { return bits_; }
   int size() const { return 1 << bits_; }
   /// Octants of a region.
-  int octants() const { return 1 << 3 * (bits_ - 2); }
+  std::size_t octants() const { return std::size_t{1} << 3 * (bits_ - 2); }
 
-  Column* find(key_type x, key_type y) const { return columns_.find(nameOf(x, y)); }
-  Region* find(key_type x, key_type y, key_type z) const {
+  Column* find(int x, int y) const { return columns_.find(nameOf(x, y)); }
+  Region* find(int x, int y, int z) const {
     const Column* column = find(x, y);
     return column == nullptr ? nullptr : column->find(z);
   }
   Column& getOrCreate(key_type x, key_type y);
-  Region& getOrCreate(Column& column, key_type z);
+  static Region& getOrCreate(Column& column, key_type z, std::size_t octants);
+  Region& getOrCreate(Column& column, key_type z) const { return getOrCreate(column, z, octants()); }
 
+  /// The region that holds a cube, if it is known.
+  Region* regionOf(const OcTreeKey& cube) const { return find(cube[0] >> bits_, cube[1] >> bits_, cube[2] >> bits_); }
   /// Number of the octant of a cube in its region.
-  int octantOf(const OcTreeKey& cube) const {
+  std::size_t octantOf(const OcTreeKey& cube) const {
     const unsigned m = static_cast<unsigned>(size()) - 1;
-    return static_cast<int>(spread3((cube[0] & m) >> 2) | spread3((cube[1] & m) >> 2) << 1 |
-                            spread3((cube[2] & m) >> 2) << 2);
+    return spread3((cube[0] & m) >> 2) | spread3((cube[1] & m) >> 2) << 1 | spread3((cube[2] & m) >> 2) << 2;
   }
   /// Lowest cube of octant `o` of a region.
-  OcTreeKey cornerOf(const Region& region, int o) const {
+  OcTreeKey cornerOf(const Region& region, std::size_t o) const {
     const auto u = static_cast<unsigned>(o);
     return {static_cast<key_type>((region.x << bits_) + (gather3(u) << 2)),
             static_cast<key_type>((region.y << bits_) + (gather3(u >> 1) << 2)),
             static_cast<key_type>((region.z << bits_) + (gather3(u >> 2) << 2))};
   }
-  Octant* findOctant(const OcTreeKey& cube) const;
 
   /// Lowest and highest cube of a region, as keys; max < min if it has none.
   std::pair<int, int> heights(const Region& region) const;
   /// H{max,min} after removals.
   void refreshHeights(Column& column) const;
-  int countCubes(const Region& region) const;
 
   /// Forgets the columns farther than this many cubes (along an axis) from a cube.
   void forgetBeyond(const OcTreeKey& centre, int distance);
@@ -127,7 +151,10 @@ class RegionMap {
   }
 
  private:
-  static std::uint64_t nameOf(key_type x, key_type y) { return std::uint64_t{x} | std::uint64_t{y} << 16; }
+  static std::uint64_t nameOf(int x, int y) {
+    return static_cast<std::uint64_t>(static_cast<std::uint32_t>(x)) |
+           static_cast<std::uint64_t>(static_cast<std::uint32_t>(y)) << 32;
+  }
 
   int bits_;
   Reader read_;
@@ -136,11 +163,13 @@ class RegionMap {
 
 /// Bit of a cube in its octant.
 inline int bitOf(const OcTreeKey& cube) { return cellIndex(cube, kRegionLevel) & 63; }
+inline constexpr std::uint64_t maskOf(int bit) { return std::uint64_t{1} << bit; }
 /// The cube of a bit, from the octant's lowest cube.
 inline OcTreeKey cubeOf(const OcTreeKey& corner, int bit) {
   const auto b = static_cast<unsigned>(bit);
-  return {static_cast<key_type>(corner[0] + gather3(b)), static_cast<key_type>(corner[1] + gather3(b >> 1)),
-          static_cast<key_type>(corner[2] + gather3(b >> 2))};
+  const auto along = [b](unsigned axis) { return (b >> axis & 1) | (b >> (axis + 2) & 2); };
+  return {static_cast<key_type>(corner[0] + along(0)), static_cast<key_type>(corner[1] + along(1)),
+          static_cast<key_type>(corner[2] + along(2))};
 }
 /// The cubes of an octant with this z in it (0 ... 3).
 inline constexpr std::uint64_t layerOf(int z) {

@@ -22,8 +22,8 @@ struct ScanPoints {
   std::size_t size() const { return cube.size(); }
 };
 
-/// Takes a scan to the map: P^W = T P^B, and I = floor(P^W / s_c), Eq. (1), with octomap::pose6d's own arithmetic, so that
-/// a point finds its cube again. `max_range` below 0: no limit.
+/// Takes a scan to the map: P^W = T P^B, and I = floor(P^W / s_c), Eq. (1), with octomap::pose6d's own arithmetic, so
+/// that a point finds its cube again. `max_range` below 0: no limit.
 void locatePoints(const KeySpace& keys, const octomap::Pointcloud& points, const octomap::pose6d& pose,
                   double min_range, double max_range, ScanPoints& scan);
 

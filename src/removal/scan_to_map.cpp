@@ -2,139 +2,200 @@
 #include "scan_to_map.hpp"
 
 #include <algorithm>
-#include <cmath>
-#include <set>
+#include <tuple>
 
-#include "ground.hpp"
+#include "evidence.hpp"
 
 namespace rhmap {
-std::vector<std::array<int,8>>* g_dbg=nullptr; int g_reason=0; int g_scan=0;
-
-double ratio1(int scan_min, int scan_max, int map_min, int map_max) {
-  return double(scan_max - scan_min + 1) / double(map_max - map_min + 1);
-}
-
 namespace {
 
-struct Judge {
-  RegionMap& map;
-  const ScanContext& scan;
-  const RemovalConfig& config;
-  double resolution;
-  std::uint32_t protect_scan;
-  int revert_hits;
-  const GroundEstimation& ground;
-  RemovalResult& result;
-  int reason;
+/// The cubes of an octant that the scan sees through, waiting for judgement.
+struct Doubt {
+  Column* column;
+  Region* region;
+  std::size_t octant;
+  std::uint64_t cubes;
+  int misses;  // that are needed
+};
 
-  void column(Column& column, int z_from, const Verdict& verdict) {
-    const float gexc = static_cast<float>(config.free_space.grown_ground / resolution);
-    for (const auto& region : column.regions) {
-      if (((region->z + 1) << map.bits()) <= z_from) continue;
-      int region_t = 0, region_s = 0, region_h = 0;
-      std::array<std::uint64_t, 64> cand{}, seen{};
-      for (int o = 0; o < map.octants(); ++o) {
-        Octant& octant = region->octants[static_cast<std::size_t>(o)];
-        if (octant.occupied == 0) continue;
-        std::uint64_t candidates = octant.occupied & ~octant.ground;
-        const OcTreeKey corner = map.cornerOf(*region, o);
-        if (config.sweep.ground && (octant.occupied & octant.ground) != 0) {
-          forEachBit(octant.ground & octant.occupied, [&](int bit) {
-            const auto h = ground.heightAbove(map, column, cubeOf(corner, bit));
-            if (h && *h > gexc) candidates |= std::uint64_t{1} << bit;
-          });
-        }
-        std::uint64_t through = 0, bad = 0;
-        const std::uint64_t now = config.protect_hits && region->scan == protect_scan ? octant.hit : 0;
-        forEachBit(candidates & ~now, [&](int bit) {
-          auto& missed = octant.missed[static_cast<std::size_t>(bit)];
-          if (!config.visibility.enabled || scan.visibility.seesThrough(scan.view(cubeOf(corner, bit)))) {
-            missed = static_cast<std::uint8_t>(missed + (missed < 255));
-            through |= std::uint64_t{1} << bit;
-            octant.doubted |= std::uint64_t{1} << bit;
-          }
-          if (missed > 0) bad |= std::uint64_t{1} << bit;
-        });
-        cand[o] = through;
-        seen[o] = bad;
-        region_t += std::popcount(bad);
-        region_s += std::popcount(candidates & ~bad);
-        region_h += std::popcount(now & candidates);
-      }
-      if (region_t == 0) continue;
-      const double region_share = region_t / double(region_t + region_s + config.sweep.hit_weight * region_h);
-      const Verdict& sure = config.sweep.sure;
-      if (region_share < verdict.region_share && region_share < sure.region_share) continue;
-      for (int o = 0; o < map.octants(); ++o) {
-        if (cand[o] == 0) continue;
-        Octant& octant = region->octants[static_cast<std::size_t>(o)];
-        const int t = std::popcount(seen[o]), s = std::popcount(octant.occupied & ~octant.ground & ~seen[o]);
-        double octant_share = t / double(t + s);
-        if (config.sweep.around > 0) {
-          int tn = 0, sn = 0;
-          const OcTreeKey c = map.cornerOf(*region, o);
-          for (int dx = -1; dx <= 1; ++dx) for (int dy = -1; dy <= 1; ++dy) for (int dz = -1; dz <= 1; ++dz) {
-            if (config.sweep.around == 1 && std::abs(dx) + std::abs(dy) + std::abs(dz) > 1) continue;
-            if (config.sweep.around == 2 && std::abs(dx) + std::abs(dy) + std::abs(dz) > 2) continue;
-            const Octant* n = map.findOctant(OcTreeKey(c[0] + 4 * dx, c[1] + 4 * dy, c[2] + 4 * dz));
-            if (n == nullptr) continue;
-            tn += std::popcount(n->occupied & n->doubted);
-            sn += std::popcount(n->occupied & n->firm & ~n->doubted & ~n->ground);
-          }
-          octant_share = tn / double(tn + sn);
-        }
-        const bool first = region_share >= verdict.region_share && octant_share >= verdict.octant_share;
-        const bool second = region_share >= sure.region_share && octant_share >= sure.octant_share;
-        std::uint64_t gone = 0;
-        forEachBit(cand[o], [&](int bit) {
-          const int hits = octant.hits[static_cast<std::size_t>(bit)];
-          if (revert_hits > 0 && hits >= revert_hits) return;
-          const int m = octant.missed[static_cast<std::size_t>(bit)];
-          if ((first && m >= verdict.misses + verdict.per_hit * std::min(double(hits), verdict.cap)) || (second && m >= sure.misses + sure.per_hit * std::min(double(hits), sure.cap))) gone |= std::uint64_t{1} << bit;
-        });
-        if (gone == 0) continue;
-        octant.occupied &= ~gone; octant.doubted &= ~gone; octant.firm &= ~gone;
-        octant.ground &= ~gone;
-        forEachBit(gone, [&](int bit) { if (g_dbg) { auto k = cubeOf(map.cornerOf(*region, o), bit); g_dbg->push_back({k[0],k[1],k[2],reason,octant.hits[bit],g_scan,octant.missed[bit]}); } octant.hits[static_cast<std::size_t>(bit)] = 0; octant.missed[static_cast<std::size_t>(bit)] = 0; });
-        column.stale = true;
-        result.removed.push_back({map.cornerOf(*region, o), gone, true});
+/// One scan's look at the map: first at all that may have gone, then, with all doubts known, at what stands around.
+class ScanToMapRemoval {
+ public:
+  ScanToMapRemoval(const RegionMap& map, const GroundEstimation& ground, const ScanContext& scan,
+                   const RemovalConfig& config, double resolution, const LookConfig& look, RemovalResult& result)
+      : map_(map),
+        ground_(ground),
+        scan_(scan),
+        config_(config),
+        resolution_(resolution),
+        look_(look),
+        result_(result) {}
+
+  void run() {
+    std::vector<const Column*> candidates;
+    for (const Context2d& context : scan_.columns) {
+      Column* column = map_.find(context.x, context.y);
+      if (column == nullptr || !isCandidate(context, *column)) continue;
+      candidates.push_back(column);
+      // What is lower than all that the scan sees here it does not see.
+      for (const auto& region : column->regions)
+        if ((region->z + 1) << map_.bits() >= context.z_min) lookAt(*column, *region, 1);
+    }
+    for (const Context3d& context : scan_.regions) lookBetweenBounds(context);
+    if (look_.everywhere) lookEverywhere(candidates);
+    judge();
+  }
+
+ private:
+  /// ratio_1 < delta_1. Eq. (8)
+  bool isCandidate(const Context2d& context, Column& column) const {
+    const ContextConfig& limits = config_.context;
+    if (context.points < limits.min_points || (limits.three_d && context.bulge_dented)) return false;
+    if (config_.shrink_heights) map_.refreshHeights(column);
+    if (column.h_max < column.h_min) return false;
+    const int h_min = std::min(column.h_min, context.z_min), h_max = std::max(column.h_max, context.z_max);
+    if (h_max - h_min + 1 < limits.min_height / resolution_) return false;
+    return ratio1(context, h_min, h_max, limits.max_ring) < limits.delta_1;
+  }
+
+  /// ratio_2 < delta_2 for the region itself; those between its bounds have no points of the scan, so their ratio_2 is
+  /// 0. Eqs. (12), (13)
+  void lookBetweenBounds(const Context3d& context) {
+    Column* column = map_.find(context.x, context.y);
+    if (column == nullptr) return;
+    for (const auto& region : column->regions) {
+      const int bottom = region->z << map_.bits(), top = bottom + map_.size() - 1;
+      if (region->z == context.z) {
+        const auto [low, high] = map_.heights(*region);
+        if (low <= high && ratio2(context, low, high) < config_.context.delta_2) lookAt(*column, *region, 1);
+      } else if (bottom >= context.inf && top <= context.sup && !has3dContext(context, region->z)) {
+        lookAt(*column, *region, 1);
       }
     }
   }
+
+  bool has3dContext(const Context3d& context, key_type z) const {
+    const auto less = [](const Context3d& a, const Context3d& b) {
+      return std::tie(a.x, a.y, a.z) < std::tie(b.x, b.y, b.z);
+    };
+    Context3d at = context;
+    at.z = z;
+    return std::binary_search(scan_.regions.begin(), scan_.regions.end(), at, less);
+  }
+
+  void lookEverywhere(std::vector<const Column*>& candidates) {
+    std::sort(candidates.begin(), candidates.end());
+    const auto reach = static_cast<float>(config_.context.max_range / resolution_);
+    const auto& sensor = scan_.view.origin();
+    map_.forEachColumn([&](Column& column) {
+      const float dx = static_cast<float>(column.x << map_.bits()) - sensor[0];
+      const float dy = static_cast<float>(column.y << map_.bits()) - sensor[1];
+      if (dx * dx + dy * dy > reach * reach) return;
+      if (std::binary_search(candidates.begin(), candidates.end(), &column)) return;
+      for (const auto& region : column.regions) lookAt(column, *region, config_.evidence.misses);
+    });
+  }
+
+  void lookAt(Column& column, Region& region, int misses) {
+    const bool is_candidate = misses == 1;
+    for (std::size_t o = 0; o < region.octants.size(); ++o) {
+      Octant& octant = region.octants[o];
+      if (octant.occupied == 0) continue;
+      std::uint64_t cubes = octant.occupied;
+      if (look_.protect_scan != 0 && region.scan == look_.protect_scan) cubes &= ~octant.hit;
+      if (cubes == 0) continue;
+      const OcTreeKey corner = map_.cornerOf(region, o);
+      if (octant.doubted == 0 && isHidden(corner)) {
+        if (is_candidate) result_.is_protected += static_cast<std::size_t>(std::popcount(octant.occupied));
+        continue;
+      }
+      const std::uint64_t ground = cubes & octant.ground;
+      cubes &= ~octant.ground;
+      // With nothing but the ratio to go by, all that is near the ground has to stay.
+      if (scan_.visibility != nullptr) cubes |= aboveGround(column, region, o, ground);
+      const std::uint64_t through = lookThrough(octant, corner, cubes);
+      if (is_candidate) result_.is_protected += static_cast<std::size_t>(std::popcount(octant.occupied & ~through));
+      if (through != 0) doubts_.push_back({&column, &region, o, through, misses});
+    }
+  }
+
+  bool isHidden(const OcTreeKey& corner) const {
+    if (scan_.visibility == nullptr) return false;
+    const auto centre = scan_.view(static_cast<float>(corner[0]) + 1.5F, static_cast<float>(corner[1]) + 1.5F,
+                                   static_cast<float>(corner[2]) + 1.5F);
+    return scan_.visibility->hides(centre, 2 * 1.7321F * static_cast<float>(resolution_));
+  }
+
+  std::uint64_t aboveGround(const Column& column, const Region& region, std::size_t o, std::uint64_t ground) const {
+    return ground_.aboveThin(map_, column, region, o, ground);
+  }
+
+  /// The cubes that the scan sees through; notes it, and where it sees something at a cube's place, takes back the
+  /// doubts.
+  std::uint64_t lookThrough(Octant& octant, const OcTreeKey& corner, std::uint64_t cubes) const {
+    std::uint64_t through = 0;
+    forEachBit(cubes, [&](int bit) {
+      const Look look =
+          scan_.visibility == nullptr ? Look::kSeenThrough : scan_.visibility->at(scan_.view(cubeOf(corner, bit)));
+      std::uint8_t& misses = octant.misses[static_cast<std::size_t>(bit)];
+      if (look == Look::kSeenThrough) {
+        countUp(misses);
+        through |= maskOf(bit);
+      } else if (look == Look::kFilled) {
+        misses = 0;
+        octant.doubted &= ~maskOf(bit);
+      }
+    });
+    octant.doubted |= through;
+    return through;
+  }
+
+  void judge() {
+    std::vector<std::uint64_t> gone(doubts_.size(), 0);
+    const EvidenceConfig& evidence = config_.evidence;
+    for (std::size_t d = 0; d < doubts_.size(); ++d) {
+      const Doubt& doubt = doubts_[d];
+      const Octant& octant = doubt.region->octants[doubt.octant];
+      const int fewest = std::min(doubt.misses, evidence.sure_misses);
+      std::uint64_t due = 0, sure = 0;
+      forEachBit(doubt.cubes, [&](int bit) {
+        const auto i = static_cast<std::size_t>(bit);
+        if (octant.misses[i] < fewest || (look_.revert_hits > 0 && octant.hits[i] >= look_.revert_hits)) return;
+        if (octant.misses[i] >= doubt.misses) due |= maskOf(bit);
+        if (octant.misses[i] >= evidence.sure_misses) sure |= maskOf(bit);
+      });
+      if ((due | sure) == 0) continue;
+      const Neighbourhood around = lookAround(map_, map_.cornerOf(*doubt.region, doubt.octant),
+                                              [](const Region&, const Octant& o) { return o.doubted; });
+      if (around.isMoving(evidence.share)) gone[d] |= due;
+      if (around.isMoving(evidence.sure_share)) gone[d] |= sure;
+    }
+    for (std::size_t d = 0; d < doubts_.size(); ++d) {
+      const Doubt& doubt = doubts_[d];
+      Octant& octant = doubt.region->octants[doubt.octant];
+      gone[d] &= octant.occupied;  // a region may have been looked at twice
+      if (gone[d] == 0) continue;
+      octant.remove(gone[d]);
+      doubt.column->stale = true;
+      result_.removed.push_back({map_.cornerOf(*doubt.region, doubt.octant), gone[d], scan_.visibility != nullptr});
+    }
+  }
+
+  const RegionMap& map_;
+  const GroundEstimation& ground_;
+  const ScanContext& scan_;
+  const RemovalConfig& config_;
+  double resolution_;
+  const LookConfig& look_;
+  RemovalResult& result_;
+  std::vector<Doubt> doubts_;
 };
 
 }  // namespace
 
-void removeByScan(RegionMap& map, const ScanContext& scan, const RemovalConfig& config, double resolution,
-                  std::uint32_t protect_scan, int revert_hits, bool late, const GroundEstimation& ground, RemovalResult& result) {
-  const ContextConfig& limits = config.context;
-  const double min_height = limits.min_height / resolution;
-  Judge judge{map, scan, config, resolution, protect_scan, revert_hits, ground, result, late ? 5 : 3};
-  std::set<Column*> done;
-  for (const ColumnContext& context : scan.columns) {
-    if (context.points < limits.min_points) continue;
-    Column* column = map.find(context.x, context.y);
-    if (column == nullptr) continue;
-    if (config.shrink_heights) map.refreshHeights(*column);
-    if (column->h_max < column->h_min) continue;
-    const int h_min = std::min(column->h_min, context.z_min);
-    int h_max = std::max(column->h_max, context.z_max);
-    if (context.max_ring) h_max = context.z_max;
-    if (h_max - h_min + 1 < min_height) continue;
-    if (ratio1(context.z_min, context.z_max, h_min, h_max) >= limits.delta_1) continue;
-    done.insert(column);
-    judge.column(*column, context.z_min - 1, late ? config.sweep.late : config.sweep.ratio);
-  }
-  if (!config.sweep.enabled || (late && !config.sweep.late_other)) return;
-  judge.reason = late ? 6 : 4;
-  const float reach = static_cast<float>(config.sweep.max_range);
-  map.forEachColumn([&](Column& column) {
-    const float dx = (static_cast<float>(column.x << map.bits()) - scan.view.origin()[0]) * static_cast<float>(resolution);
-    const float dy = (static_cast<float>(column.y << map.bits()) - scan.view.origin()[1]) * static_cast<float>(resolution);
-    if (dx * dx + dy * dy > reach * reach) return;
-    if (done.count(&column)) return;
-    judge.column(column, 0, config.sweep.other);
-  });
+void removeByScan(const RegionMap& map, const GroundEstimation& ground, const ScanContext& scan,
+                  const RemovalConfig& config, double resolution, const LookConfig& look, RemovalResult& result) {
+  ScanToMapRemoval(map, ground, scan, config, resolution, look, result).run();
 }
 
 }  // namespace rhmap

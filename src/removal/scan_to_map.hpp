@@ -4,47 +4,34 @@
 #include <cstdint>
 #include <vector>
 
+#include "ground.hpp"
 #include "region_map.hpp"
 #include "rhmap/removal/removal_config.hpp"
-#include "scan_insertion.hpp"
-#include "visibility.hpp"
+#include "scan_context.hpp"
 
 namespace rhmap {
-extern std::vector<std::array<int,8>>* g_dbg; extern int g_reason; extern int g_scan;
 
-/// ^{2d}S^W at one O_r, on its own.
-struct ColumnContext {
-  key_type x, y;    ///< O_r >> bits
-  int z_min, z_max; ///< keys
-  int points;
-  bool max_ring;
-};
-
-/// A scan as the map is compared with it.
-struct ScanContext {
-  std::vector<ColumnContext> columns;
-  SensorView view;
-  Visibility visibility;
-};
-
-/// Cubes that left the map.
-struct RemovedOctant {
+/// Cubes of an octant that left the map.
+struct RemovedCubesOf {
   OcTreeKey corner;
   std::uint64_t cubes;
   bool seen_through;
 };
 
 struct RemovalResult {
-  std::vector<RemovedOctant> removed;
+  std::vector<RemovedCubesOf> removed;
   std::size_t is_protected = 0;  ///< cubes of candidates that stay
 };
 
-/// S2M-R (Sec. III-C.2): removes from the map what the scan shows to have gone. `scan`: the number of the scan whose hits
-/// are not to be touched; 0: none.
-void removeByScan(RegionMap& map, const ScanContext& scan, const RemovalConfig& config, double resolution,
-                  std::uint32_t protect_scan, int revert_hits, bool late, const class GroundEstimation& ground, RemovalResult& result);
+/// Whose look it is.
+struct LookConfig {
+  std::uint32_t protect_scan = 0;  ///< cubes that this scan has hit are not touched; 0: none
+  int revert_hits = 0;             ///< nor are cubes that so many scans have hit; 0: any number
+  bool everywhere = false;         ///< cubes beside those of candidates by ratio are looked at, too
+};
 
-/// Eq. (8), with heights counted in cubes, both ends included.
-double ratio1(int scan_min, int scan_max, int map_min, int map_max);
+/// S2M-R (Sec. III-C.2): takes from the regions what the scan shows to have gone.
+void removeByScan(const RegionMap& map, const GroundEstimation& ground, const ScanContext& scan,
+                  const RemovalConfig& config, double resolution, const LookConfig& look, RemovalResult& result);
 
 }  // namespace rhmap

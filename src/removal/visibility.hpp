@@ -2,6 +2,8 @@
 #pragma once
 
 #include <array>
+#include <cmath>
+#include <cstdint>
 #include <vector>
 
 #include "range_image.hpp"
@@ -9,60 +11,73 @@
 
 namespace rhmap {
 
-/// Sees a cube of the map as the sensor does: its centre in the sensor's frame.
+/// Where a cube of the map is in the sensor's frame.
 class SensorView {
  public:
   SensorView(const KeySpace& keys, const octomap::pose6d& pose);
 
-  /// Sensor frame [m].
-  std::array<float, 3> operator()(const OcTreeKey& cube) const {
-    const float x = static_cast<float>(cube[0]) - origin_[0], y = static_cast<float>(cube[1]) - origin_[1],
-                z = static_cast<float>(cube[2]) - origin_[2];
+  /// A place in keys (a cube's centre is its key) in the sensor's frame [m].
+  std::array<float, 3> operator()(float kx, float ky, float kz) const {
+    const float x = kx - origin_[0], y = ky - origin_[1], z = kz - origin_[2];
     return {rows_[0][0] * x + rows_[0][1] * y + rows_[0][2] * z, rows_[1][0] * x + rows_[1][1] * y + rows_[1][2] * z,
             rows_[2][0] * x + rows_[2][1] * y + rows_[2][2] * z};
   }
+  std::array<float, 3> operator()(const OcTreeKey& cube) const {
+    return (*this)(static_cast<float>(cube[0]), static_cast<float>(cube[1]), static_cast<float>(cube[2]));
+  }
 
-  /// The sensor, in keys: a cube's centre is its key.
+  /// The sensor, in keys.
   const std::array<float, 3>& origin() const { return origin_; }
 
  private:
   std::array<float, 3> origin_{};
-  std::array<std::array<float, 3>, 3> rows_{};  // R^T, scaled to metres
+  std::array<std::array<float, 3>, 3> rows_{};  // of R^T, times the edge of a cube [m]
 };
 
-/// Whether rays of a scan pass through a cube: every return in a window of pixels around it lies behind it, and there is
-/// one.
+/// What a scan says about a place.
+enum class Look : std::int8_t {
+  kFilled = -1,      ///< something is there, or as near as pixels can tell
+  kUnknown = 0,      ///< hidden, outside of the image, or too near to a surface to tell
+  kSeenThrough = 1,  ///< what is seen lies behind it
+};
+
+/// Looks at cubes through a scan's range image.
 class Visibility {
  public:
+  /// `cube`: edge of a cube [m].
   Visibility(const RangeImage& image, const ScanPoints& scan, const VisibilityConfig& config, double cube);
 
-  /// A cube's centre in the sensor's frame [m].
-  bool seesThrough(const std::array<float, 3>& p) const {
+  /// At a cube's centre in the sensor's frame [m].
+  Look at(const std::array<float, 3>& p) const {
     const float row = projection_.rowOf(p[0], p[1], p[2]);
-    if (!(row >= 0 && row < static_cast<float>(projection_.rows))) return false;
+    if (!(row >= 0 && row < static_cast<float>(projection_.rows))) return Look::kUnknown;
     const int column = projection_.columnOf(p[0], p[1]);
     const float range = std::sqrt(p[0] * p[0] + p[1] * p[1] + p[2] * p[2]);
-    const float behind = range + margin_;
     const int i = static_cast<int>(row);
-    const float centre = ranges_[static_cast<std::size_t>(i * projection_.columns + column)];
-    if (!(centre > behind)) return false;
-    return isClear(i, column, range, p);
+    if (ranges_[static_cast<std::size_t>(i * projection_.columns + column)] < range - before_) return Look::kUnknown;
+    return around(p, range, i, column);
   }
 
+  /// True if no cube within `radius` [m] of a place (sensor's frame) can be seen through: nothing that is seen around
+  /// it lies behind.
+  bool hides(const std::array<float, 3>& p, float radius) const;
+
  private:
-  static constexpr float kStepsPerMetre = 4;
   struct Window {
     std::int8_t up, beside;
   };
-  bool isClear(int row, int column, float range, const std::array<float, 3>& p) const;
+  Look around(const std::array<float, 3>& p, float range, int row, int column) const;
+
+  static constexpr float kStepsPerMetre = 4;
+  static constexpr int kBlock = 4;  // pixels of an edge of what farthest_ sums up
 
   Projection projection_;
   std::vector<float> ranges_;
-  std::vector<std::array<float, 3>> points_;
-  float segment_;
-  std::vector<Window> windows_;  // for cubes this many steps away; beyond: the last
-  float margin_, near_;
-  int min_seen_;
+  std::vector<std::array<float, 3>> points_;  // sensor's frame [m]
+  std::vector<float> farthest_;               // of each block of pixels and those around it; 0 where all are empty
+  int block_columns_ = 0;
+  std::vector<Window> windows_;  // for cubes so many steps away; beyond: the last
+  float behind_, before_, surface_, surface_share_;
 };
 
 }  // namespace rhmap

@@ -21,13 +21,13 @@ std::string_view nameOf(Stage stage);
 
 /// What became of a scan.
 struct ScanReport {
-  std::size_t points = 0;      ///< given
-  std::size_t dropped = 0;     ///< of these left out: not finite, outside of the tree, too near or too far
-  std::size_t inserted = 0;    ///< cubes that were hit and are in the map
-  std::size_t rejected = 0;    ///< cubes that were hit and kept out, because what is there moves
-  std::size_t removed = 0;     ///< cubes that were taken out of the map
+  std::size_t points = 0;        ///< given
+  std::size_t dropped = 0;       ///< of these left out: not finite, outside of the tree, too near or too far
+  std::size_t inserted = 0;      ///< cubes that were hit and are in the map
+  std::size_t rejected = 0;      ///< cubes that were hit and kept out, because what is there moves
+  std::size_t removed = 0;       ///< cubes that were taken out of the map
   std::size_t is_protected = 0;  ///< cubes that would have been, but are ground, hit by this scan, or not seen through
-  bool keyframe = false;       ///< the scan waits in the back end's queue
+  bool keyframe = false;         ///< the scan waits in the back end's queue
   std::array<double, kStages> seconds{};  ///< processor time of each stage [s]
 
   double totalSeconds() const;
@@ -44,6 +44,7 @@ class RhMap : public OcTree {
  public:
   /// An empty map with cubes of this edge length [m]; std::invalid_argument that names the wrong field.
   explicit RhMap(double resolution, const RemovalConfig& config = {});
+  /// A copy of the map and the configuration; what waits in the back end's queue stays behind.
   RhMap(const RhMap& other);
   ~RhMap() override;
 
@@ -63,7 +64,9 @@ class RhMap : public OcTree {
 
   /// Whether the cube is taken for ground (by what has been seen around it lately).
   bool isGround(const OcTreeKey& cube) const;
-  std::array<int, 6> debugCube(const OcTreeKey& cube) const;
+
+  /// What the removal keeps beside the tree, keyframes aside [bytes]: it goes with the surroundings, not with the way.
+  std::size_t removalMemoryUsage() const;
 
  private:
   class Removal;

@@ -1,0 +1,54 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <vector>
+
+namespace rhmap {
+
+/// One bit for each cell of a window: a word of 64 cells in z for each of side x side places (x, y).
+class CellGrid {
+ public:
+  CellGrid() = default;
+  CellGrid(int x0, int y0, int z0, int side)
+      : x0_(x0),
+        y0_(y0),
+        z0_(z0),
+        side_(side),
+        words_(static_cast<std::size_t>(side) * static_cast<std::size_t>(side), 0) {}
+
+  int x0() const { return x0_; }
+  int y0() const { return y0_; }
+  int z0() const { return z0_; }
+  int side() const { return side_; }
+
+  std::uint64_t& word(int x, int y) { return words_[static_cast<std::size_t>(y * side_ + x)]; }
+  std::uint64_t word(int x, int y) const { return words_[static_cast<std::size_t>(y * side_ + x)]; }
+
+  /// By the cell's own coordinates; false outside.
+  bool at(int x, int y, int z) const {
+    x -= x0_, y -= y0_, z -= z0_;
+    return x >= 0 && y >= 0 && x < side_ && y < side_ && z >= 0 && z < 64 && (word(x, y) >> z & 1) != 0;
+  }
+  void set(int x, int y, int z) {
+    x -= x0_, y -= y0_, z -= z0_;
+    if (x >= 0 && y >= 0 && x < side_ && y < side_ && z >= 0 && z < 64) word(x, y) |= std::uint64_t{1} << z;
+  }
+
+  /// Clears the cells that are not in another grid of the same window.
+  void intersect(const CellGrid& other) {
+    for (std::size_t i = 0; i < words_.size(); ++i) words_[i] &= other.words_[i];
+  }
+
+  /// The cells whose 26 neighbours are all set as well; none at the window's rim.
+  CellGrid eroded() const;
+  /// The cells that are set or next to one that is; what is set at the rim of the window does not spread.
+  CellGrid dilated() const;
+
+ private:
+  int x0_ = 0, y0_ = 0, z0_ = 0, side_ = 0;
+  std::vector<std::uint64_t> words_;
+};
+
+}  // namespace rhmap

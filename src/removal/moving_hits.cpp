@@ -1,0 +1,103 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "moving_hits.hpp"
+
+#include "evidence.hpp"
+
+namespace rhmap {
+
+std::size_t MovingHits::reject(const RegionMap& map, const GroundEstimation& ground, const ScanTrace& trace,
+                               const FreeSpace& free_space, std::vector<RemovedCubesOf>& removed) const {
+  if (config_.look_back.enabled) lookBack(map, trace);
+
+  // Seeds: cells with hits in the void, or with cubes that have come.
+  const CellGrid& voids = free_space.voids();
+  const int shift = free_space.shift();
+  CellGrid solid(voids.x0(), voids.y0(), voids.z0(), voids.side());
+  CellGrid moving = solid;
+  bool any = false;
+  for (const Region* region : trace.regions) {
+    for (std::size_t o = 0; o < region->octants.size(); ++o) {
+      const Octant& octant = region->octants[o];
+      if (octant.hit == 0) continue;
+      std::uint64_t come = octant.appeared;
+      if (come != 0) {
+        const Neighbourhood around = lookAround(
+            map, map.cornerOf(*region, o),
+            [&](const Region& r, const Octant& beside) { return r.scan == trace.scan ? beside.appeared : 0; });
+        if (!around.isMoving(config_.look_back.share)) come = 0;
+      }
+      forEachCell(octant.hit, map.cornerOf(*region, o), shift,
+                  [&](const OcTreeKey& corner, std::uint64_t hit, std::size_t) {
+                    const int x = corner[0] >> shift, y = corner[1] >> shift, z = corner[2] >> shift;
+                    solid.set(x, y, z);
+                    if ((come & hit) == 0 && ((hit & ~octant.ground) == 0 || !voids.at(x, y, z))) return;
+                    moving.set(x, y, z);
+                    any = true;
+                  });
+    }
+  }
+  if (!any) return 0;
+
+  // Growth within the scan.
+  for (int step = 0; step < config_.free_space.growth; ++step) {
+    moving = moving.dilated();
+    moving.intersect(solid);
+  }
+  std::size_t rejected = 0;
+  for (Region* region : trace.regions) {
+    Column* column = nullptr;
+    for (std::size_t o = 0; o < region->octants.size(); ++o) {
+      Octant& octant = region->octants[o];
+      const OcTreeKey corner = map.cornerOf(*region, o);
+      std::uint64_t out = 0;
+      forEachCell(octant.hit & octant.occupied, corner, shift,
+                  [&](const OcTreeKey& cell, std::uint64_t hit, std::size_t) {
+                    if (moving.at(cell[0] >> shift, cell[1] >> shift, cell[2] >> shift)) out |= hit;
+                  });
+      if (out == 0) continue;
+      if (column == nullptr) column = map.find(region->x, region->y);
+      out = (out & ~octant.ground) | ground.aboveThin(map, *column, *region, o, out & octant.ground);
+      forEachBit(out, [&](int bit) {
+        if (octant.hits[static_cast<std::size_t>(bit)] > config_.free_space.known) out &= ~maskOf(bit);
+      });
+      if (out == 0) continue;
+      rejected += static_cast<std::size_t>(std::popcount(out));
+      if (const std::uint64_t known = out & ~octant.fresh; known != 0) removed.push_back({corner, known, false});
+      octant.remove(out);
+      column->stale = true;
+    }
+  }
+  return rejected;
+}
+
+void MovingHits::lookBack(const RegionMap& map, const ScanTrace& trace) const {
+  for (Region* region : trace.regions) {
+    for (std::size_t o = 0; o < region->octants.size(); ++o) {
+      Octant& octant = region->octants[o];
+      const std::uint64_t fresh = octant.fresh & ~octant.ground;
+      if (fresh == 0) continue;
+      const OcTreeKey corner = map.cornerOf(*region, o);
+      forEachBit(fresh, [&](int bit) {
+        if (hasCome(cubeOf(corner, bit))) octant.appeared |= maskOf(bit);
+      });
+    }
+  }
+}
+
+bool MovingHits::hasCome(const OcTreeKey& cube) const {
+  int seen = 0, contrary = 0;
+  for (const Past& past : past_) {
+    const Look look = past.visibility->at(past.view(cube));
+    seen += look == Look::kSeenThrough;
+    contrary += look == Look::kFilled;
+  }
+  return seen >= config_.look_back.seen && contrary <= config_.look_back.contrary;
+}
+
+void MovingHits::remember(std::uint32_t scan, const ScanContext& context) {
+  if (!config_.look_back.enabled || scan % static_cast<std::uint32_t>(config_.look_back.stride) != 0) return;
+  past_.push_back({context.view, context.visibility});
+  if (past_.size() > static_cast<std::size_t>(config_.look_back.scans)) past_.pop_front();
+}
+
+}  // namespace rhmap

@@ -1,0 +1,44 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <cstddef>
+#include <deque>
+#include <memory>
+#include <vector>
+
+#include "free_space.hpp"
+#include "ground.hpp"
+#include "scan_context.hpp"
+#include "scan_to_map.hpp"
+
+namespace rhmap {
+
+/// Finds in a scan what moves before it enters the map: what is hit in the void, what has come to a place that past
+/// scans saw through, and what belongs to these.
+class MovingHits {
+ public:
+  /// `resolution`: edge of a cube [m].
+  explicit MovingHits(const RemovalConfig& config) : config_(config) {}
+
+  /// Takes the hits of what moves out of the regions. Cubes that the map had before are appended to `removed`. Returns
+  /// the number of cubes taken out.
+  std::size_t reject(const RegionMap& map, const GroundEstimation& ground, const ScanTrace& trace,
+                     const FreeSpace& free_space, std::vector<RemovedCubesOf>& removed) const;
+
+  /// A scan to look back at from now on.
+  void remember(std::uint32_t scan, const ScanContext& context);
+
+ private:
+  struct Past {
+    SensorView view;
+    std::shared_ptr<const Visibility> visibility;
+  };
+
+  void lookBack(const RegionMap& map, const ScanTrace& trace) const;
+  bool hasCome(const OcTreeKey& cube) const;
+
+  RemovalConfig config_;
+  std::deque<Past> past_;
+};
+
+}  // namespace rhmap

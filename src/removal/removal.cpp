@@ -1,0 +1,227 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "removal.hpp"
+
+#include <time.h>
+
+#include <algorithm>
+
+#include "rhmap/octree/scan_marking.hpp"
+#include "tree_reader.hpp"
+
+namespace rhmap {
+namespace {
+
+constexpr std::uint32_t kScansBetweenForgetting = 16;
+constexpr double kSlack = 20;  // [m] beyond what is needed, so that little is forgotten and read again
+
+double processorTime() {
+  timespec now{};
+  clock_gettime(CLOCK_THREAD_CPUTIME_ID, &now);
+  return double(now.tv_sec) + 1e-9 * double(now.tv_nsec);
+}
+
+/// Charges the time since the last call to a stage.
+class StageClock {
+ public:
+  explicit StageClock(ScanReport& report) : report_(report), last_(processorTime()) {}
+  void charge(Stage stage) {
+    const double now = processorTime();
+    report_.seconds[static_cast<std::size_t>(stage)] += now - last_;
+    last_ = now;
+  }
+
+ private:
+  ScanReport& report_;
+  double last_;
+};
+
+}  // namespace
+
+RhMap::Removal::Removal(RhMap& tree, const RemovalConfig& config)
+    : tree_(tree),
+      config_(config),
+      resolution_(tree.getResolution()),
+      regions_(config.region_size, [&tree](key_type x, key_type y, int size) { return readColumn(tree, x, y, size); }),
+      ground_(config.ground, resolution_),
+      free_space_(config.free_space, resolution_),
+      moving_hits_(config),
+      keyframes_(config.back_end) {}
+
+ScanReport RhMap::Removal::process(const octomap::Pointcloud& points, const octomap::pose6d& pose, bool insert) {
+  ScanReport report;
+  StageClock clock(report);
+
+  // P^W = T P^B
+  locatePoints(tree_.keySpace(), points, pose, config_.min_range, config_.max_range, points_);
+  report.points = points_.given;
+  report.dropped = points_.dropped;
+  OcTreeKey sensor;
+  if (points_.size() == 0 || !tree_.coordToKeyChecked(pose.trans(), sensor)) return report;
+  ++scan_;
+  forgetFar(sensor);
+  clock.charge(Stage::kTransform);
+
+  // Into the regions: H and the attributes of cubes. Sec. III-B
+  ScanTrace trace = traceScan(
+      regions_, points_, sensor, scan_,
+      {.reach = config_.context.max_range, .resolution = resolution_, .firm = config_.evidence.firm, .insert = insert});
+  clock.charge(Stage::kInsert);
+
+  // R-GPE. Sec. III-C.1
+  if (insert) ground_.update(regions_, trace);
+  clock.charge(Stage::kGround);
+
+  // Range image and scan contexts. Sec. III-C.2
+  if (!projection_) projection_ = measureProjection(config_.image, points_);
+  const RangeImage image(*projection_, points_);
+  ScanContext context = contextOf(pose, trace, sensor, image);
+  clock.charge(Stage::kImage);
+
+  // What moves stays out. Beyond the paper
+  RemovalResult result;
+  if (insert && config_.free_space.enabled) {
+    free_space_.observe(regions_, trace, context.view.origin());
+    report.rejected = moving_hits_.reject(regions_, ground_, trace, free_space_, result.removed);
+    moving_hits_.remember(scan_, context);
+  }
+  clock.charge(Stage::kFreeSpace);
+
+  // S2M-R. Sec. III-C.2
+  removeByScan(
+      regions_, ground_, context, config_, resolution_,
+      {.protect_scan = config_.protect_hits ? scan_ : 0, .revert_hits = 0, .everywhere = config_.evidence.everywhere},
+      result);
+  clock.charge(Stage::kRemoval);
+
+  if (insert) report.inserted = write(trace, points, pose);
+  erase(result, report);
+  clock.charge(Stage::kMap);
+
+  // Back end. Sec. III-D
+  if (insert && config_.back_end.enabled) {
+    const std::array<float, 3> position{pose.trans().x(), pose.trans().y(), pose.trans().z()};
+    report.keyframe = keyframes_.wants(position, scan_, informationContent(image, config_.context.max_range));
+    if (report.keyframe) keyframes_.push(position, std::move(context));
+    if (const auto keyframe = keyframes_.pop(position)) lookAgain(*keyframe, scan_, report);
+  }
+  clock.charge(Stage::kBackEnd);
+  return report;
+}
+
+ScanReport RhMap::Removal::finish() {
+  ScanReport report;
+  StageClock clock(report);
+  while (const auto keyframe = keyframes_.pop()) lookAgain(*keyframe, 0, report);
+  clock.charge(Stage::kBackEnd);
+  return report;
+}
+
+ScanContext RhMap::Removal::contextOf(const octomap::pose6d& pose, ScanTrace& trace, const OcTreeKey& sensor,
+                                      const RangeImage& image) const {
+  ColumnGrid grid(regions_, sensor, config_.context.max_range, resolution_);
+  for (std::size_t i = 0; i < trace.columns.size(); ++i)
+    *grid.at(trace.columns[i].column->x, trace.columns[i].column->y) = static_cast<std::int32_t>(i);
+  if (config_.context.max_ring) findMaxRing(image, points_, regions_, grid, trace);
+  std::vector<Context3d> regions;
+  if (config_.context.three_d) regions = findBulgeDented(image, points_, config_.context, regions_, grid, trace);
+  std::shared_ptr<const Visibility> visibility;
+  if (config_.visibility.enabled)
+    visibility = std::make_shared<Visibility>(image, points_, config_.visibility, resolution_);
+  return {contextsOf(trace), std::move(regions), SensorView(tree_.keySpace(), pose), std::move(visibility)};
+}
+
+void RhMap::Removal::lookAgain(const ScanContext& keyframe, std::uint32_t protect_scan, ScanReport& report) {
+  RemovalResult result;
+  removeByScan(regions_, ground_, keyframe, config_, resolution_,
+               {.protect_scan = config_.protect_hits ? protect_scan : 0,
+                .revert_hits = config_.back_end.revert_hits,
+                .everywhere = false},
+               result);
+  erase(result, report);
+}
+
+/// The hit cubes that are in the map, into the tree: as OctoMap's updateNode for each. Returns how many there are.
+std::size_t RhMap::Removal::write(const ScanTrace& trace, const octomap::Pointcloud& points,
+                                  const octomap::pose6d& pose) {
+  std::size_t inserted = 0;
+  ScanMasks masks;
+  if (config_.carve) {
+    octomap::Pointcloud world(points);
+    world.transform(pose);
+    ScanCounts counts;
+    masks = markScan(tree_.keySpace(), world, pose.trans(), {.max_range = config_.max_range}, counts);
+  }
+  const auto write = [&](const RegionMasks& region) {
+    if (!tree_.use_change_detection) {
+      ScanApplier<OcTreeNode>(*tree_.store_, tree_.sensorModel(), false).apply(region);
+      return;
+    }
+    for (std::uint64_t t = 0; t < 8; ++t) {
+      const OcTreeKey corner = cell_word::toKey(region.region << 9 | t << 6);
+      forEachBit(region.free[t] & ~region.hit[t], [&](int bit) { tree_.updateNode(cubeOf(corner, bit), false); });
+      forEachBit(region.hit[t], [&](int bit) { tree_.updateNode(cubeOf(corner, bit), true); });
+    }
+  };
+  masks.forEachRegion([&](const RegionMasks& marked) {
+    RegionMasks free{marked.region, marked.free, {}};
+    bool any = false;
+    for (std::uint64_t t = 0; t < 8; ++t) {
+      const OcTreeKey corner = cell_word::toKey(marked.region << 9 | t << 6);
+      free.free[t] &= ~marked.hit[t];  // an end that was kept out of the map is not free for that
+      if (const Region* region = regions_.regionOf(corner))
+        free.free[t] &= ~region->octants[regions_.octantOf(corner)].occupied;
+      any = any || free.free[t] != 0;
+    }
+    if (any) write(free);
+  });
+  const std::size_t octants = std::min<std::size_t>(8, regions_.octants());
+  for (const Region* region : trace.regions) {
+    for (std::size_t first = 0; first < region->octants.size(); first += octants) {
+      const std::uint64_t word = cell_word::fromKey(regions_.cornerOf(*region, first));
+      RegionMasks hits{word >> 9, {}, {}};
+      std::size_t cubes = 0;
+      for (std::size_t o = 0; o < octants; ++o) {
+        const Octant& octant = region->octants[first + o];
+        std::uint64_t& hit = hits.hit[(word >> 6 & 7) + o];
+        hit = octant.hit & octant.occupied;
+        cubes += static_cast<std::size_t>(std::popcount(hit));
+      }
+      if (cubes > 0) write(hits);
+      inserted += cubes;
+    }
+  }
+  return inserted;
+}
+
+void RhMap::Removal::erase(const RemovalResult& result, ScanReport& report) {
+  for (const RemovedCubesOf& removed : result.removed) {
+    report.removed += static_cast<std::size_t>(std::popcount(removed.cubes));
+    forEachBit(removed.cubes, [&](int bit) {
+      const OcTreeKey cube = cubeOf(removed.corner, bit);
+      if (config_.removed == RemovedCubes::kFree && removed.seen_through) {
+        tree_.setNodeValue(cube, tree_.clamping_thres_min);
+      } else if (tree_.search(cube) != nullptr) {
+        tree_.deleteNode(cube);
+      }
+    });
+  }
+  report.is_protected += result.is_protected;
+}
+
+/// What is kept beside the tree is kept for the surroundings of the sensor only, so that it does not grow with the way.
+void RhMap::Removal::forgetFar(const OcTreeKey& sensor) {
+  if (scan_ % kScansBetweenForgetting != 0) return;
+  const double reach = config_.context.max_range + (config_.back_end.enabled ? config_.back_end.delay : 0) + kSlack;
+  const int cubes = static_cast<int>(std::min(reach / resolution_, 65536.0));
+  regions_.forgetBeyond(sensor, cubes);
+  free_space_.forgetBeyond(sensor, cubes);
+}
+
+bool RhMap::Removal::isGround(const OcTreeKey& cube) const {
+  const Region* region = regions_.regionOf(cube);
+  return region != nullptr && (region->octants[regions_.octantOf(cube)].ground & maskOf(bitOf(cube))) != 0;
+}
+
+std::size_t RhMap::Removal::memoryUsage() const { return regions_.memoryUsage() + free_space_.memoryUsage(); }
+
+}  // namespace rhmap

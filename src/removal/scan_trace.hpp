@@ -1,0 +1,56 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "region_map.hpp"
+#include "scan_points.hpp"
+
+namespace rhmap {
+
+/// The cubes of a scan in one column of regions: the heights of ^{2d}S^W, Eq. (7).
+struct ScanColumn {
+  Column* column = nullptr;
+  int z_min = 1 << 16, z_max = -1;  ///< keys of the lowest and the highest cube
+  int points = 0;
+  bool max_ring = false;      ///< a point of the scan's highest ring is in it
+  bool bulge_dented = false;  ///< a point of P_sup or P_inf is in it
+};
+
+/// What a scan has touched.
+struct ScanTrace {
+  std::uint32_t scan = 0;           ///< its number, from 1
+  std::vector<ScanColumn> columns;  ///< as far as contexts reach
+  std::vector<Region*> regions;     ///< all with a hit
+};
+
+struct TraceConfig {
+  double reach = 50;        ///< of the contexts [m]
+  double resolution = 0.1;  ///< edge of a cube [m]
+  int firm = 3;             ///< hits that make a cube firm
+  bool insert = true;       ///< puts the cubes into the map, and does not only mark what was hit
+};
+
+/// Marks the cubes of a scan in the regions: Octant::hit and, if they are to be inserted, what follows from it.
+ScanTrace traceScan(RegionMap& map, const ScanPoints& points, const OcTreeKey& sensor, std::uint32_t scan,
+                    const TraceConfig& config);
+
+/// The columns of a trace around the sensor, by position.
+class ColumnGrid {
+ public:
+  ColumnGrid(const RegionMap& map, const OcTreeKey& sensor, double reach, double resolution);
+
+  /// Where the number of a column stands, below 0 if it has none; null outside of the grid.
+  std::int32_t* at(int x, int y) {
+    x -= x0_, y -= y0_;
+    if (x < 0 || y < 0 || x >= side_ || y >= side_) return nullptr;
+    return &index_[static_cast<std::size_t>(y * side_ + x)];
+  }
+
+ private:
+  int half_, side_, x0_, y0_;
+  std::vector<std::int32_t> index_;
+};
+
+}  // namespace rhmap
