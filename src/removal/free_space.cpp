@@ -13,7 +13,6 @@ std::uint64_t nameOf(int x, int y) {
   return static_cast<std::uint64_t>(static_cast<std::uint32_t>(x)) << 32 | static_cast<std::uint32_t>(y);
 }
 
-int cellOf(key_type cube) { return cube >> 2; }
 
 std::uint64_t shifted(std::uint64_t word, int by) {
   return by >= 64 || by <= -64 ? 0 : by >= 0 ? word >> by : word << -by;
@@ -84,7 +83,8 @@ void FreeSpace::Tile::moveTo(int z) {
   z0 = z;
 }
 
-FreeSpace::FreeSpace(const VoidConfig& config, double cube) : config_(config), cube_(cube) {}
+FreeSpace::FreeSpace(const VoidConfig& config, double cube)
+    : config_(config), cube_(cube), shift_(config.cell > 3 * cube ? 2 : 1), cells_(1 << shift_) {}
 
 FreeSpace::~FreeSpace() {
   tiles_.forEach([](Tile& tile) { delete &tile; });
@@ -101,11 +101,11 @@ FreeSpace::Tile& FreeSpace::tileAt(int x, int y, int z0) {
 }
 
 void FreeSpace::castRays(const RegionMap& map, const ScanTrace& trace, const std::array<float, 3>& sensor) {
-  const float cells_per_metre = static_cast<float>(1 / (4 * cube_));
+  const float cells_per_metre = static_cast<float>(1 / (cells_ * cube_));
   const float reach = static_cast<float>(config_.max_range) * cells_per_metre;
   const float surface = static_cast<float>(config_.surface) * cells_per_metre;
   std::array<float, 3> from;
-  for (std::size_t i = 0; i < 3; ++i) from[i] = (sensor[i] + 0.5F) * 0.25F;
+  for (std::size_t i = 0; i < 3; ++i) from[i] = (sensor[i] + 0.5F) / static_cast<float>(cells_);
 
   // The end of each hit cell's ray: its hit cube nearest to the cell's first. And what else is surface.
   struct End {
@@ -119,22 +119,24 @@ void FreeSpace::castRays(const RegionMap& map, const ScanTrace& trace, const std
     for (int o = 0; o < map.octants(); ++o) {
       const Octant& octant = region->octants[static_cast<std::size_t>(o)];
       if (octant.hit == 0) continue;
-      const OcTreeKey corner = map.cornerOf(*region, o);
-      hit_.set(cellOf(corner[0]), cellOf(corner[1]), cellOf(corner[2]));
-      const OcTreeKey cube = cubeOf(corner, std::countr_zero(octant.hit));
-      End end;
-      float squared = 0;
-      for (unsigned i = 0; i < 3; ++i) {
-        end.to[i] = (static_cast<float>(cube[i]) + 0.5F) * 0.25F;
-        squared += (end.to[i] - from[i]) * (end.to[i] - from[i]);
-      }
-      end.length = std::sqrt(squared);
-      if (end.length > reach || end.length < 1) continue;
-      end.ground = (octant.ground & octant.hit) != 0;
-      const float t = 1 - surface / end.length;
-      hit_.set(static_cast<int>(from[0] + t * (end.to[0] - from[0])), static_cast<int>(from[1] + t * (end.to[1] - from[1])),
-               static_cast<int>(from[2] + t * (end.to[2] - from[2])));
-      ends.push_back(end);
+      const OcTreeKey octant_corner = map.cornerOf(*region, o);
+      forEachCell(octant.hit, octant_corner, shift_, [&](const OcTreeKey& corner, std::uint64_t hit, int) {
+        hit_.set(corner[0] >> shift_, corner[1] >> shift_, corner[2] >> shift_);
+        const OcTreeKey cube = cubeOf(octant_corner, std::countr_zero(hit));
+        End end;
+        float squared = 0;
+        for (unsigned i = 0; i < 3; ++i) {
+          end.to[i] = (static_cast<float>(cube[i]) + 0.5F) / static_cast<float>(cells_);
+          squared += (end.to[i] - from[i]) * (end.to[i] - from[i]);
+        }
+        end.length = std::sqrt(squared);
+        if (end.length > reach || end.length < 1) return;
+        end.ground = (octant.ground & hit) != 0;
+        const float t = 1 - surface / end.length;
+        hit_.set(static_cast<int>(from[0] + t * (end.to[0] - from[0])), static_cast<int>(from[1] + t * (end.to[1] - from[1])),
+                 static_cast<int>(from[2] + t * (end.to[2] - from[2])));
+        ends.push_back(end);
+      });
     }
   }
 
@@ -182,15 +184,16 @@ void FreeSpace::revert(const RegionMap& map, const ScanTrace& trace) {
     for (int o = 0; o < map.octants(); ++o) {
       Octant& octant = region->octants[static_cast<std::size_t>(o)];
       if (octant.hit == 0) continue;
-      const OcTreeKey corner = map.cornerOf(*region, o);
-      const int x = cellOf(corner[0]) - voids_.x0(), y = cellOf(corner[1]) - voids_.y0(),
-                z = cellOf(corner[2]) - voids_.z0();
-      if (x < 1 || y < 1 || x + 1 >= voids_.side() || y + 1 >= voids_.side() || z < 0 || z >= 64) continue;
+      forEachCell(octant.hit, map.cornerOf(*region, o), shift_, [&](const OcTreeKey& corner, std::uint64_t, int cell) {
+      const int x = (corner[0] >> shift_) - voids_.x0(), y = (corner[1] >> shift_) - voids_.y0(),
+                z = (corner[2] >> shift_) - voids_.z0();
+      if (x < 1 || y < 1 || x + 1 >= voids_.side() || y + 1 >= voids_.side() || z < 0 || z >= 64) return;
       Tile& tile = tileAt((x + voids_.x0()) >> 3, (y + voids_.y0()) >> 3, voids_.z0());
       const CellColumn& column = tile.columns[static_cast<std::size_t>(((y + voids_.y0()) & 7) * 8 + ((x + voids_.x0()) & 7))];
       const bool crossed_since = (atLeast(column.crossed, 1) >> z & 1) != 0;
-      octant.hit_in_a_row = crossed_since ? std::uint8_t{1} : static_cast<std::uint8_t>(octant.hit_in_a_row + (octant.hit_in_a_row < 255));
-      if (octant.hit_in_a_row < config_.tau_r || (column.is_void >> z & 1) == 0) continue;
+      auto& in_a_row = octant.hit_in_a_row[static_cast<std::size_t>(cell)];
+      in_a_row = crossed_since ? std::uint8_t{1} : static_cast<std::uint8_t>(in_a_row + (in_a_row < 255));
+      if (in_a_row < config_.tau_r || (column.is_void >> z & 1) == 0) return;
       const std::uint64_t around = (z > 0 ? std::uint64_t{7} << (z - 1) : std::uint64_t{3});
       for (int dy = -1; dy <= 1; ++dy) {
         for (int dx = -1; dx <= 1; ++dx) {
@@ -199,13 +202,14 @@ void FreeSpace::revert(const RegionMap& map, const ScanTrace& trace) {
           other.columns[static_cast<std::size_t>((cy & 7) * 8 + (cx & 7))].is_void &= ~around;
         }
       }
+      });
     }
   }
 }
 
 void FreeSpace::observe(const RegionMap& map, const ScanTrace& trace, const std::array<float, 3>& sensor) {
-  const int radius = static_cast<int>(std::ceil(config_.max_range / (4 * cube_))) + 2;
-  const int sx = static_cast<int>(sensor[0]) >> 2, sy = static_cast<int>(sensor[1]) >> 2, sz = static_cast<int>(sensor[2]) >> 2;
+  const int radius = static_cast<int>(std::ceil(config_.max_range / (cells_ * cube_))) + 2;
+  const int sx = static_cast<int>(sensor[0]) >> shift_, sy = static_cast<int>(sensor[1]) >> shift_, sz = static_cast<int>(sensor[2]) >> shift_;
   // Snapped to tiles, so that each is looked up once.
   const int x0 = (sx - radius) & ~7, y0 = (sy - radius) & ~7, z0 = (sz - kBelow) & ~7;
   const int side = (2 * radius + 15) & ~7;
@@ -243,7 +247,7 @@ void FreeSpace::observe(const RegionMap& map, const ScanTrace& trace, const std:
 void FreeSpace::forgetBeyond(const OcTreeKey& centre, int distance) {
   std::vector<Tile*> far;
   tiles_.forEach([&](Tile& tile) {
-    const int dx = tile.x * 32 + 16 - centre[0], dy = tile.y * 32 + 16 - centre[1];
+    const int dx = tile.x * 8 * cells_ - centre[0], dy = tile.y * 8 * cells_ - centre[1];
     if (std::max(std::abs(dx), std::abs(dy)) > distance) far.push_back(&tile);
   });
   for (Tile* tile : far) {

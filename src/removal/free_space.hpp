@@ -47,6 +47,17 @@ class CellGrid {
   std::vector<std::uint64_t> words_;
 };
 
+/// Visits the cells of an octant that have any of these cubes: their lowest cube, their cubes, and their number.
+template <class F>
+void forEachCell(std::uint64_t cubes, const OcTreeKey& corner, int shift, F&& visit) {
+  if (shift == 2) {
+    if (cubes != 0) visit(corner, cubes, 0);
+    return;
+  }
+  for (int i = 0; i < 8; ++i)
+    if (const std::uint64_t some = cubes & std::uint64_t{0xff} << (8 * i); some != 0) visit(cubeOf(corner, 8 * i), some, i);
+}
+
 /// Where there is nothing, for good: cells that rays have crossed with all their neighbours, scan after scan.
 class FreeSpace {
  public:
@@ -60,6 +71,7 @@ class FreeSpace {
 
   /// The void cells around the sensor, as of the last scan.
   const CellGrid& voids() const { return voids_; }
+  int shift() const { return shift_; }
 
   /// Forgets what is farther than this many cubes from a cube.
   void forgetBeyond(const OcTreeKey& centre, int distance);
@@ -83,6 +95,7 @@ class FreeSpace {
 
   VoidConfig config_;
   double cube_;
+  int shift_, cells_;
   CellGrid hit_, crossed_, voids_;
   BlockIndex<Tile> tiles_;
 };

@@ -21,7 +21,7 @@ struct Octant {
   std::uint64_t ground = 0;    ///< of these, cubes of the ground
   std::uint64_t hit = 0;       ///< cubes that scan Region::scan has hit
   std::uint64_t fresh = 0;     ///< of these, cubes that were not in the map before
-  std::uint8_t hit_in_a_row = 0;  ///< scans that have hit it since a ray crossed it, up to 255
+  std::array<std::uint8_t, 8> hit_in_a_row{};  ///< scans that have hit it since a ray crossed it, up to 255
   std::array<std::uint8_t, 64> hits{};    ///< scans that have hit the cube, up to 255
   std::array<std::uint8_t, 64> missed{};  ///< scans that have seen through it since the last hit, up to 255
 };

@@ -106,7 +106,7 @@ class RhMap::Removal {
     int t = 0, s = 0;
     const Region* region = regions_.find(cube[0] >> regions_.bits(), cube[1] >> regions_.bits(), cube[2] >> regions_.bits());
     for (int o = 0; o < regions_.octants(); ++o) forEachBit(region->octants[o].occupied & ~region->octants[o].ground, [&](int bit) { (region->octants[o].missed[bit] > 0 ? t : s)++; });
-    return {octant->hits[bitOf(cube)], octant->missed[bitOf(cube)], t, s, free_space_.voids().at(cube[0]>>2,cube[1]>>2,cube[2]>>2),0};
+    return {octant->hits[bitOf(cube)], octant->missed[bitOf(cube)], t, s, free_space_.voids().at(cube[0]>>free_space_.shift(),cube[1]>>free_space_.shift(),cube[2]>>free_space_.shift()),0};
   }
   bool isGround(const OcTreeKey& cube) const {
     const Octant* octant = regions_.findOctant(cube);
@@ -136,15 +136,18 @@ class RhMap::Removal {
 
     if (!projection_) projection_ = measureProjection(config_.image, points_);
     RangeImage image(*projection_, points_);
-    ScanContext context{contextsOf(trace), view, Visibility(image, points_, config_.visibility, tree_.getResolution())};
+    const auto shared = std::make_shared<ScanContext>(ScanContext{contextsOf(trace), view, Visibility(image, points_, config_.visibility, tree_.getResolution())});
+    const ScanContext& context = *shared;
     clock.charge(Stage::kImage);
 
     RemovalResult result;
     if (insertion && config_.free_space.enabled) {
       free_space_.observe(regions_, trace, view.origin());
-      report.rejected = rejectInVoid(regions_, ground_, trace, free_space_.voids(), config_.free_space,
+      report.rejected = rejectInVoid(regions_, ground_, trace, free_space_.voids(), free_space_.shift(), past_, config_.look_back, config_.free_space,
                                      tree_.getResolution(), result.removed);
     }
+    if (scan_ % config_.look_back.stride == 0) past_.push_back(shared);
+    if (past_.size() > (size_t)config_.look_back.scans) past_.pop_front();
     clock.charge(Stage::kFreeSpace);
 
     removeByScan(regions_, context, config_, tree_.getResolution(), scan_, 0, false, ground_, result);
@@ -156,7 +159,7 @@ class RhMap::Removal {
 
     if (insertion && config_.back_end.enabled) {
       if (keyframes_.wants(position, scan_, informationContent(image, keyframes_.rMax()))) {
-        keyframes_.push(position, std::move(context));
+        keyframes_.push(position, context);
         report.keyframe = true;
       }
       if (const auto keyframe = keyframes_.pop(position)) lookAgain(*keyframe, scan_, report);
@@ -243,6 +246,7 @@ class RhMap::Removal {
   GroundEstimation ground_;
   FreeSpace free_space_;
   Keyframes keyframes_;
+  std::deque<std::shared_ptr<const ScanContext>> past_;
   std::optional<Projection> projection_;
   std::uint32_t scan_ = 0;
   ScanPoints points_;

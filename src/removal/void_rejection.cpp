@@ -4,7 +4,7 @@
 namespace rhmap {
 
 std::size_t rejectInVoid(const RegionMap& map, const GroundEstimation& ground, const ScanTrace& trace,
-                         const CellGrid& voids, const VoidConfig& config, double resolution,
+                         const CellGrid& voids, int shift, const std::deque<std::shared_ptr<const ScanContext>>& past, const LookBack& look_back, const VoidConfig& config, double resolution,
                          std::vector<RemovedOctant>& removed) {
   // Cells with hits above the ground, and those of them that lie in the void.
   CellGrid solid(voids.x0(), voids.y0(), voids.z0(), voids.side());
@@ -26,17 +26,36 @@ std::size_t rejectInVoid(const RegionMap& map, const GroundEstimation& ground, c
   };
   bool any = false;
   for (const Region* region : trace.regions) {
+    std::array<std::uint64_t, 64> appeared_in{};
+    if (look_back.enabled) {
+      int t = 0, s = 0;
+      for (int o = 0; o < map.octants(); ++o) {
+        const Octant& octant = region->octants[static_cast<std::size_t>(o)];
+        const std::uint64_t fresh = octant.fresh & ~octant.ground;
+        const OcTreeKey corner = map.cornerOf(*region, o);
+        forEachBit(fresh, [&](int bit) {
+          int seen = 0;
+          for (const auto& scan : past) seen += scan->visibility.seesThrough(scan->view(cubeOf(corner, bit)));
+          if (seen >= look_back.need) appeared_in[o] |= std::uint64_t{1} << bit;
+        });
+        t += std::popcount(appeared_in[o]);
+        s += std::popcount(octant.occupied & ~octant.ground & ~appeared_in[o]);
+      }
+      if (t < look_back.share * (t + s)) appeared_in = {};
+    }
     for (int o = 0; o < map.octants(); ++o) {
       const Octant& octant = region->octants[static_cast<std::size_t>(o)];
       const std::uint64_t cubes = octant.hit & ~octant.ground;
       if (octant.hit == 0) continue;
-      const OcTreeKey corner = map.cornerOf(*region, o);
-      const int x = corner[0] >> 2, y = corner[1] >> 2, z = corner[2] >> 2;
-      solid.set(x, y, z);
-      if (cubes != 0 && voids.at(x, y, z)) {
-        moving.set(x, y, z);
-        any = true;
-      }
+      const std::uint64_t appeared = appeared_in[o];
+      forEachCell(octant.hit, map.cornerOf(*region, o), shift, [&](const OcTreeKey& corner, std::uint64_t hit, int) {
+        const int x = corner[0] >> shift, y = corner[1] >> shift, z = corner[2] >> shift;
+        solid.set(x, y, z);
+        if (((cubes & hit) != 0 && voids.at(x, y, z)) || (appeared & hit) != 0) {
+          moving.set(x, y, z);
+          any = true;
+        }
+      });
     }
   }
   if (!any) return 0;
@@ -56,8 +75,12 @@ std::size_t rejectInVoid(const RegionMap& map, const GroundEstimation& ground, c
       Octant& octant = region->octants[static_cast<std::size_t>(o)];
       if (octant.hit == 0) continue;
       const OcTreeKey corner = map.cornerOf(*region, o);
-      if (!moving.at(corner[0] >> 2, corner[1] >> 2, corner[2] >> 2)) continue;
-      std::uint64_t out = above(*region, o) & octant.occupied;
+      std::uint64_t in = 0;
+      forEachCell(octant.hit, corner, shift, [&](const OcTreeKey& c, std::uint64_t hit, int) {
+        if (moving.at(c[0] >> shift, c[1] >> shift, c[2] >> shift)) in |= hit;
+      });
+      if (in == 0) continue;
+      std::uint64_t out = above(*region, o) & octant.occupied & in;
       if (config.known < 255) forEachBit(out, [&](int bit) { if (octant.hits[bit] > config.known) out &= ~(std::uint64_t{1} << bit); });
       if (out == 0) continue;
       rejected += static_cast<std::size_t>(std::popcount(out));

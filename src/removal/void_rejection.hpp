@@ -2,6 +2,8 @@
 #pragma once
 
 #include <cstddef>
+#include <deque>
+#include <memory>
 #include <vector>
 
 #include "free_space.hpp"
@@ -13,7 +15,7 @@ namespace rhmap {
 /// Takes the hits of things that move out of the scan before they enter the map: what is hit in the void, and what
 /// belongs to it. Cubes that the map had before are appended to `removed`. Returns the number of cubes rejected.
 std::size_t rejectInVoid(const RegionMap& map, const GroundEstimation& ground, const ScanTrace& trace,
-                         const CellGrid& voids, const VoidConfig& config, double resolution,
+                         const CellGrid& voids, int shift, const std::deque<std::shared_ptr<const ScanContext>>& past, const LookBack& look_back, const VoidConfig& config, double resolution,
                          std::vector<RemovedOctant>& removed);
 
 }  // namespace rhmap

@@ -62,6 +62,7 @@ struct VoidConfig {
   double grown_ground = 0.07; ///< growth takes also ground cubes this much above their plane [m]; below 0: none
 };
 
+struct LookBack { bool enabled = true; int scans = 6, stride = 3, need = 2; double share = 0; };
 struct Verdict { double misses = 1, per_hit = 0, cap = 20, region_share = 0, octant_share = 0; };
 struct SweepConfig {
   bool enabled = true;
@@ -107,6 +108,7 @@ struct RemovalConfig {
   VisibilityConfig visibility;
   VoidConfig free_space;
   SweepConfig sweep;
+  LookBack look_back;
   BackEndConfig back_end;
 };
 
