@@ -13,12 +13,12 @@
 #include <nlohmann/json.hpp>
 #include <optional>
 
+#include "ablation.hpp"
 #include "arguments.hpp"
+#include "evaluate_options.hpp"
 #include "evaluation_table.hpp"
 #include "load_map.hpp"
 #include "mapper_rows.hpp"
-#include "progress_bar.hpp"
-#include "removal_options.hpp"
 #include "rhmap/io/cloud_reader.hpp"
 #include "rhmap/io/scan_sequence.hpp"
 #include "text.hpp"
@@ -26,16 +26,6 @@
 
 namespace rhmap::tools {
 namespace {
-
-struct EvaluateOptions {
-  std::string sequence;
-  std::vector<std::string> profiles;  ///< of the mapper's rows; empty: what rowsOf() says
-  std::string map;                    ///< cleaned map or cloud; empty: none
-  RemovalOptions removal;
-  double ego_radius = eval::KthConfig{}.ego_radius;
-  std::vector<std::string> protocols;  ///< empty: all
-  std::string json;
-};
 
 constexpr std::array<std::string_view, 3> kProtocols{"rhmap", "erasor", "kth"};
 constexpr std::array<std::string_view, 7> kMapFiles{".bt", ".ot", ".pcd", ".ply", ".xyz", ".txt", ".dat"};
@@ -85,26 +75,9 @@ struct MapElsewhere {
   eval::Estimate row;
 };
 
-eval::EvaluationConfig configOf(const EvaluateOptions& options, const FrameRange& frames) {
-  const auto asksFor = [&](std::string_view protocol) {
-    return options.protocols.empty() ||
-           std::find(options.protocols.begin(), options.protocols.end(), protocol) != options.protocols.end();
-  };
-  eval::EvaluationConfig config{.window = {.first = frames.first,
-                                           .last = frames.last,
-                                           .min_range = options.removal.min_range,
-                                           .max_range = options.removal.max_range},
-                                .labels = eval::Labels()};
-  config.rhmap->resolution = options.removal.resolution;
-  config.kth->ego_radius = options.ego_radius;
-  if (!asksFor("rhmap")) config.rhmap.reset();
-  if (!asksFor("erasor")) config.erasor.reset();
-  if (!asksFor("kth")) config.kth.reset();
-  return config;
-}
-
-/// The profiles that were asked for; the default's, if neither they nor a map were.
+/// The ablation's, or the profiles that were asked for; the default's, if neither they nor a map were.
 std::vector<MapperRow> rowsOf(const EvaluateOptions& options) {
+  if (options.ablation) return ablationRows(options.removal);
   std::vector<std::string> profiles = options.profiles;
   if (profiles.empty() && options.map.empty()) profiles.push_back("default");
   std::vector<MapperRow> rows;
@@ -124,22 +97,16 @@ nlohmann::ordered_json summaryOf(const EvaluateOptions& options, const FrameRang
 
 void evaluate(const EvaluateOptions& options) {
   requireExists(options.sequence);
-  std::optional<MapElsewhere> elsewhere;
-  if (!options.map.empty()) elsewhere.emplace(options.map);
+  std::optional<MapElsewhere> map;  // lives as long as its row
+  if (!options.map.empty()) map.emplace(options.map);
   const auto sequence = io::openSequence(options.sequence);
   const FrameRange frames = chooseFrames(options.removal.frames, options.sequence, sequence->size());
-  if (!sequence->hasLabels())
-    throw std::runtime_error(options.sequence + ": has no labels (labels/NNNNNN.label) to score against");
+  requireLabels(options.sequence, *sequence);
 
-  const eval::EvaluationConfig config = configOf(options, frames);
-  const auto runs = runMappers(*sequence, config, options.removal.resolution, rowsOf(options));
-  std::vector<eval::Estimate> rows = estimatesOf(runs);
-  if (elsewhere) rows.push_back(elsewhere->row);
-  std::vector<eval::Score> scores;
-  {
-    ProgressBar bar("evaluating", eval::numReads(*sequence, config));
-    scores = eval::evaluate(*sequence, config, rows, [&bar] { bar.advance(); });
-  }
+  std::vector<eval::Estimate> elsewhere;
+  if (map) elsewhere.push_back(map->row);
+  auto [runs, scores] = evaluateRows(*sequence, evaluationConfig(options, frames), options.removal.resolution,
+                                     rowsOf(options), elsewhere, "");
   const std::vector<eval::Score> online = onlineScores(runs);
   scores.insert(scores.end(), online.begin(), online.end());
   if (options.json != "-") {
@@ -152,7 +119,7 @@ void evaluate(const EvaluateOptions& options) {
 
 /// An option that nothing reads would be a wish that is not granted in silence.
 void requireMapper(const CLI::App& verb, const EvaluateOptions& options) {
-  if (options.map.empty() || !options.profiles.empty()) return;
+  if (options.map.empty() || !options.profiles.empty() || options.ablation) return;
   for (const char* option : kMapperOptions) {
     if (verb.count(option) > 0)
       throw UsageError(
@@ -184,11 +151,14 @@ void addEvaluate(CLI::App& app) {
       ->type_name("M")
       ->capture_default_str()
       ->check(lengthFrom0());
+  verb->add_flag("--ablation", options->ablation, "Rows of the profiles with one part changed, under protocol rhmap")
+      ->excludes("--profile", "--region-size", "--front-end-only");
   addJson(*verb, options->json, "counts, rates and times");
   verb->group("Verbs");
   verb->footer(kFooter);
   verb->callback([options, verb] {
     requireMapper(*verb, *options);
+    if (options->ablation && options->protocols.empty()) options->protocols = {"rhmap"};
     evaluate(*options);
   });
 }

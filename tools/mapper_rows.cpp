@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <nlohmann/json.hpp>
 
+#include "progress_bar.hpp"
 #include "rhmap/eval/online_score.hpp"
 #include "statistics.hpp"
 
@@ -13,14 +14,14 @@ namespace rhmap::tools {
 namespace {
 
 MapperRun run(const io::ScanSequence& sequence, const eval::EvaluationConfig& config, double resolution,
-              const MapperRow& row) {
+              const MapperRow& row, const std::string& label) {
   const FrameRange frames{config.window.first, config.window.last.value_or(sequence.size() - 1)};
   RhMap map(resolution, row.config);
   const eval::Estimate now = eval::keptInMap(row.name, map);
   eval::OnlineScore online(config.labels, kOnlineLag);
   MapperRun result;
   result.name = row.name;
-  result.figures = runRemoval(sequence, frames, map, row.name, [&](const io::Scan& scan, const RhMap&) {
+  result.figures = runRemoval(sequence, frames, map, label, [&](const io::Scan& scan, const RhMap&) {
     online.add(eval::labelledScan(scan, config.window), now);
   });
   result.at_insertion = online.atOnce();
@@ -33,17 +34,19 @@ std::string milliseconds(double seconds) { return fmt::format("{:>10.2f}", 1e3 *
 
 }  // namespace
 
-std::vector<MapperRun> runMappers(const io::ScanSequence& sequence, const eval::EvaluationConfig& config,
-                                  double resolution, std::span<const MapperRow> rows) {
-  std::vector<MapperRun> runs;
-  for (const MapperRow& row : rows) runs.push_back(run(sequence, config, resolution, row));
-  return runs;
-}
-
-std::vector<eval::Estimate> estimatesOf(std::span<const MapperRun> runs) {
+Evaluation evaluateRows(const io::ScanSequence& sequence, const eval::EvaluationConfig& config, double resolution,
+                        std::span<const MapperRow> rows, std::span<const eval::Estimate> elsewhere,
+                        const std::string& label) {
+  Evaluation evaluation;
+  for (const MapperRow& row : rows)
+    evaluation.runs.push_back(
+        run(sequence, config, resolution, row, label.empty() ? row.name : label + " " + row.name));
   std::vector<eval::Estimate> estimates;
-  for (const MapperRun& run : runs) estimates.push_back(eval::keptInMap(run.name, *run.map));
-  return estimates;
+  for (const MapperRun& run : evaluation.runs) estimates.push_back(eval::keptInMap(run.name, *run.map));
+  estimates.insert(estimates.end(), elsewhere.begin(), elsewhere.end());
+  ProgressBar bar("evaluating", eval::numReads(sequence, config));
+  evaluation.scores = eval::evaluate(sequence, config, estimates, [&bar] { bar.advance(); });
+  return evaluation;
 }
 
 std::vector<eval::Score> onlineScores(std::span<const MapperRun> runs) {

@@ -34,12 +34,17 @@ struct MapperRun {
   eval::Counts later;         ///< and kOnlineLag scans later
 };
 
-/// Runs one after the other over the window of a labelled sequence.
-std::vector<MapperRun> runMappers(const io::ScanSequence& sequence, const eval::EvaluationConfig& config,
-                                  double resolution, std::span<const MapperRow> rows);
+/// Runs and their scores, beside those of the baselines.
+struct Evaluation {
+  std::vector<MapperRun> runs;
+  std::vector<eval::Score> scores;  ///< protocol by protocol: no removal, oracle, the runs, `elsewhere`
+};
 
-/// The final maps as rows of eval::evaluate(); the runs must live as long.
-std::vector<eval::Estimate> estimatesOf(std::span<const MapperRun> runs);
+/// Runs the mapper for each row, one after the other, over the window of a labelled sequence and scores the final maps;
+/// `elsewhere` are rows that were made by others. `label` is for the progress bars.
+Evaluation evaluateRows(const io::ScanSequence& sequence, const eval::EvaluationConfig& config, double resolution,
+                        std::span<const MapperRow> rows, std::span<const eval::Estimate> elsewhere,
+                        const std::string& label);
 
 /// The scores while the maps grew, two rows a run, as protocol "online".
 std::vector<eval::Score> onlineScores(std::span<const MapperRun> runs);

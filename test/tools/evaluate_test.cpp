@@ -2,6 +2,7 @@
 #include <cstdint>
 #include <cstring>
 #include <nlohmann/json.hpp>
+#include <set>
 #include <vector>
 
 #include "program.hpp"
@@ -122,6 +123,26 @@ TEST_F(EvaluateTest, JudgesEachScanAtInsertionAndTenScansLater) {
   EXPECT_LT(later["static"], all["static"]);  // of the first five scans only
   EXPECT_GT(now["SA"], 0.98);
   EXPECT_GT(later["DA"], now["DA"]);
+}
+
+TEST_F(EvaluateTest, AblationIsATableOfTheProfilesWithOnePartChanged) {
+  runs("simulate street sim --beams 16 --frames 12 --rate 5");
+  const auto json = summary("sim --ablation");
+  std::set<std::string> names;
+  for (const auto& run : json["runs"]) names.insert(run["row"]);
+  EXPECT_EQ(names.size(), json["runs"].size());
+  for (const std::string name : {"paper", "paper, front end only", "paper, regions of 4", "paper, regions of 16",
+                                 "paper, 2D only", "paper + protect + hshrink", "paper + visibility", "fast", "default",
+                                 "default, front end only", "default, R-GPE off", "default - void"}) {
+    EXPECT_TRUE(names.contains(name)) << name;
+    EXPECT_TRUE(part(json["rows"], "rhmap", name, "cells")["PR"].is_number()) << name;
+  }
+  const auto scores = [&](const std::string& name) { return part(json["rows"], "rhmap", name, "cells"); };
+  EXPECT_NE(scores("paper, regions of 4"), scores("paper, regions of 16"));
+  EXPECT_NE(scores("paper, R-GPE off"), scores("paper"));
+  EXPECT_GT(scores("paper + visibility")["PR"], scores("paper")["PR"]);
+  EXPECT_GT(scores("default")["RR"], scores("default - void")["RR"]);
+  fails("evaluate sim --ablation --profile fast", 2, "--profile excludes --ablation; see rhmap evaluate --help");
 }
 
 /// What the mapper leaves out as the carrier's own is not asked for in its map.
