@@ -19,6 +19,8 @@
 #include "evaluation_table.hpp"
 #include "load_map.hpp"
 #include "mapper_rows.hpp"
+#include "paper_tables.hpp"
+#include "paper_windows.hpp"
 #include "rhmap/io/cloud_reader.hpp"
 #include "rhmap/io/scan_sequence.hpp"
 #include "text.hpp"
@@ -117,6 +119,13 @@ void evaluate(const EvaluateOptions& options) {
   if (!options.json.empty()) writeJson(options.json, summaryOf(options, frames, scores, runs));
 }
 
+void tables(EvaluateOptions options) {
+  if (std::find(options.protocols.begin(), options.protocols.end(), "kth") != options.protocols.end())
+    throw UsageError("--tables are of PR and RR, which protocol kth has not; one of: rhmap, erasor");
+  if (options.profiles.empty()) options.profiles.assign(removalProfiles().begin(), removalProfiles().end());
+  evaluateTables(options);
+}
+
 /// An option that nothing reads would be a wish that is not granted in silence.
 void requireMapper(const CLI::App& verb, const EvaluateOptions& options) {
   if (options.map.empty() || !options.profiles.empty() || options.ablation) return;
@@ -153,13 +162,22 @@ void addEvaluate(CLI::App& app) {
       ->check(lengthFrom0());
   verb->add_flag("--ablation", options->ablation, "Rows of the profiles with one part changed, under protocol rhmap")
       ->excludes("--profile", "--region-size", "--front-end-only");
+  verb->add_flag(
+          "--tables", options->tables,
+          "The paper's Tables I and II; SEQUENCE is the folder of SemanticKITTI, rows are --profile's (default: all)")
+      ->excludes("--ablation", "--map", "--frames", "--front-end-only");
+  verb->add_option("--windows", options->windows, "Scans of the tables (default: the paper's, e.g. 05:2350-2670)")
+      ->type_name("SEQUENCE:A-B,...")
+      ->delimiter(',')
+      ->check(windowOfSequence())
+      ->needs("--tables");
   addJson(*verb, options->json, "counts, rates and times");
   verb->group("Verbs");
   verb->footer(kFooter);
   verb->callback([options, verb] {
     requireMapper(*verb, *options);
-    if (options->ablation && options->protocols.empty()) options->protocols = {"rhmap"};
-    evaluate(*options);
+    if ((options->ablation || options->tables) && options->protocols.empty()) options->protocols = {"rhmap"};
+    options->tables ? tables(*options) : evaluate(*options);
   });
 }
 

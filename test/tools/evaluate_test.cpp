@@ -114,9 +114,9 @@ TEST_F(EvaluateTest, RunsTheMapperAsCleanDoes) {
 
 TEST_F(EvaluateTest, JudgesEachScanAtInsertionAndTenScansLater) {
   runs("simulate street sim --beams 16 --frames 15");
-  const auto rows = summary("sim --protocol rhmap")["rows"];
-  const auto now = part(rows, "online", "default, at insertion", "points");
-  const auto later = part(rows, "online", "default, 10 scans later", "points");
+  const auto rows = summary("sim --protocol rhmap --profile fast")["rows"];
+  const auto now = part(rows, "online", "fast, at insertion", "points");
+  const auto later = part(rows, "online", "fast, 10 scans later", "points");
   const auto all = part(rows, "rhmap", "no removal", "points");
   EXPECT_EQ(now["static"], all["static"]);
   EXPECT_EQ(now["dynamic"], all["dynamic"]);
@@ -126,7 +126,7 @@ TEST_F(EvaluateTest, JudgesEachScanAtInsertionAndTenScansLater) {
 }
 
 TEST_F(EvaluateTest, AblationIsATableOfTheProfilesWithOnePartChanged) {
-  runs("simulate street sim --beams 16 --frames 12 --rate 5");
+  runs("simulate street sim --beams 16 --frames 8 --rate 5");
   const auto json = summary("sim --ablation");
   std::set<std::string> names;
   for (const auto& run : json["runs"]) names.insert(run["row"]);
