@@ -20,6 +20,9 @@ struct Octant {
   std::uint64_t occupied = 0;  ///< cubes that are in the map
   std::uint64_t ground = 0;    ///< of these, cubes of the ground
   std::uint64_t hit = 0;       ///< cubes that scan Region::scan has hit
+  std::uint64_t doubted = 0;   ///< cubes that have been seen through since their last hit
+  std::uint64_t appeared = 0;
+  std::uint64_t firm = 0;
   std::uint64_t fresh = 0;     ///< of these, cubes that were not in the map before
   std::array<std::uint8_t, 8> hit_in_a_row{};  ///< scans that have hit it since a ray crossed it, up to 255
   std::array<std::uint8_t, 64> hits{};    ///< scans that have hit the cube, up to 255

@@ -128,7 +128,7 @@ class RhMap::Removal {
     forgetFar(sensor);
 
     const ScanTrace trace = rhmap::insertScan(regions_, points_, sensor, config_.context.max_range, tree_.getResolution(),
-                                              scan_, insertion);
+                                              scan_, insertion, config_.look_back.firm);
     clock.charge(Stage::kInsert);
 
     if (insertion) ground_.update(regions_, trace);

@@ -32,7 +32,7 @@ class ColumnGrid {
 }  // namespace
 
 ScanTrace insertScan(RegionMap& map, const ScanPoints& points, const OcTreeKey& sensor, double reach, double resolution,
-                     std::uint32_t scan, bool insert) {
+                     std::uint32_t scan, bool insert, int firm) {
   ScanTrace trace{.scan = scan};
   ColumnGrid grid(map, sensor, reach, resolution);
   const auto farthest = static_cast<float>(reach);
@@ -52,7 +52,7 @@ ScanTrace insertScan(RegionMap& map, const ScanPoints& points, const OcTreeKey& 
       region = &map.getOrCreate(*column, z);
       if (region->scan != scan) {
         region->scan = scan;
-        for (int o = 0; o < map.octants(); ++o) region->octants[static_cast<std::size_t>(o)].hit = region->octants[static_cast<std::size_t>(o)].fresh = 0;
+        for (int o = 0; o < map.octants(); ++o) region->octants[static_cast<std::size_t>(o)].hit = region->octants[static_cast<std::size_t>(o)].fresh = region->octants[static_cast<std::size_t>(o)].appeared = 0;
         trace.regions.push_back(region);
       }
     }
@@ -75,6 +75,7 @@ ScanTrace insertScan(RegionMap& map, const ScanPoints& points, const OcTreeKey& 
     if ((octant.hit & mask) != 0) continue;
     octant.hit |= mask;
     if (!insert) continue;
+    octant.doubted &= ~mask;
     if ((octant.occupied & mask) == 0) {
       octant.occupied |= mask;
       octant.fresh |= mask;
@@ -88,6 +89,7 @@ ScanTrace insertScan(RegionMap& map, const ScanPoints& points, const OcTreeKey& 
     std::uint8_t& hits = octant.hits[static_cast<std::size_t>(bit)];
     hits = static_cast<std::uint8_t>(hits + (hits < 255));
     octant.missed[static_cast<std::size_t>(bit)] = 0;
+    if (hits >= firm) octant.firm |= mask;
   }
   return trace;
 }

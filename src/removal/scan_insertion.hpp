@@ -27,6 +27,6 @@ struct ScanTrace {
 /// Marks the cubes of a scan in the regions: Octant::hit and, with `insert`, Octant::occupied, the counts and H. Points
 /// within `reach` [m] make the 2D scan context.
 ScanTrace insertScan(RegionMap& map, const ScanPoints& points, const OcTreeKey& sensor, double reach, double resolution,
-                     std::uint32_t scan, bool insert);
+                     std::uint32_t scan, bool insert, int firm);
 
 }  // namespace rhmap

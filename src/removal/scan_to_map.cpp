@@ -51,6 +51,7 @@ struct Judge {
           if (!config.visibility.enabled || scan.visibility.seesThrough(scan.view(cubeOf(corner, bit)))) {
             missed = static_cast<std::uint8_t>(missed + (missed < 255));
             through |= std::uint64_t{1} << bit;
+            octant.doubted |= std::uint64_t{1} << bit;
           }
           if (missed > 0) bad |= std::uint64_t{1} << bit;
         });
@@ -68,7 +69,20 @@ struct Judge {
         if (cand[o] == 0) continue;
         Octant& octant = region->octants[static_cast<std::size_t>(o)];
         const int t = std::popcount(seen[o]), s = std::popcount(octant.occupied & ~octant.ground & ~seen[o]);
-        const double octant_share = t / double(t + s);
+        double octant_share = t / double(t + s);
+        if (config.sweep.around > 0) {
+          int tn = 0, sn = 0;
+          const OcTreeKey c = map.cornerOf(*region, o);
+          for (int dx = -1; dx <= 1; ++dx) for (int dy = -1; dy <= 1; ++dy) for (int dz = -1; dz <= 1; ++dz) {
+            if (config.sweep.around == 1 && std::abs(dx) + std::abs(dy) + std::abs(dz) > 1) continue;
+            if (config.sweep.around == 2 && std::abs(dx) + std::abs(dy) + std::abs(dz) > 2) continue;
+            const Octant* n = map.findOctant(OcTreeKey(c[0] + 4 * dx, c[1] + 4 * dy, c[2] + 4 * dz));
+            if (n == nullptr) continue;
+            tn += std::popcount(n->occupied & n->doubted);
+            sn += std::popcount(n->occupied & n->firm & ~n->doubted & ~n->ground);
+          }
+          octant_share = tn / double(tn + sn);
+        }
         const bool first = region_share >= verdict.region_share && octant_share >= verdict.octant_share;
         const bool second = region_share >= sure.region_share && octant_share >= sure.octant_share;
         std::uint64_t gone = 0;
@@ -79,7 +93,7 @@ struct Judge {
           if ((first && m >= verdict.misses + verdict.per_hit * std::min(double(hits), verdict.cap)) || (second && m >= sure.misses + sure.per_hit * std::min(double(hits), sure.cap))) gone |= std::uint64_t{1} << bit;
         });
         if (gone == 0) continue;
-        octant.occupied &= ~gone;
+        octant.occupied &= ~gone; octant.doubted &= ~gone; octant.firm &= ~gone;
         octant.ground &= ~gone;
         forEachBit(gone, [&](int bit) { if (g_dbg) { auto k = cubeOf(map.cornerOf(*region, o), bit); g_dbg->push_back({k[0],k[1],k[2],reason,octant.hits[bit],g_scan,octant.missed[bit]}); } octant.hits[static_cast<std::size_t>(bit)] = 0; octant.missed[static_cast<std::size_t>(bit)] = 0; });
         column.stale = true;

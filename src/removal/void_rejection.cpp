@@ -25,29 +25,44 @@ std::size_t rejectInVoid(const RegionMap& map, const GroundEstimation& ground, c
     return cubes;
   };
   bool any = false;
-  for (const Region* region : trace.regions) {
-    std::array<std::uint64_t, 64> appeared_in{};
-    if (look_back.enabled) {
+  if (look_back.enabled) {
+    for (Region* region : trace.regions) {
       int t = 0, s = 0;
       for (int o = 0; o < map.octants(); ++o) {
-        const Octant& octant = region->octants[static_cast<std::size_t>(o)];
+        Octant& octant = region->octants[static_cast<std::size_t>(o)];
         const std::uint64_t fresh = octant.fresh & ~octant.ground;
         const OcTreeKey corner = map.cornerOf(*region, o);
         forEachBit(fresh, [&](int bit) {
           int seen = 0;
           for (const auto& scan : past) seen += scan->visibility.seesThrough(scan->view(cubeOf(corner, bit)));
-          if (seen >= look_back.need) appeared_in[o] |= std::uint64_t{1} << bit;
+          if (seen >= look_back.need) octant.appeared |= std::uint64_t{1} << bit;
         });
-        t += std::popcount(appeared_in[o]);
-        s += std::popcount(octant.occupied & ~octant.ground & ~appeared_in[o]);
+        t += std::popcount(octant.appeared);
+        s += std::popcount(octant.occupied & ~octant.ground & ~octant.appeared);
       }
-      if (t < look_back.share * (t + s)) appeared_in = {};
+      if (t < look_back.share * (t + s)) for (int o = 0; o < map.octants(); ++o) region->octants[o].appeared = 0;
     }
+  }
+  for (const Region* region : trace.regions) {
     for (int o = 0; o < map.octants(); ++o) {
       const Octant& octant = region->octants[static_cast<std::size_t>(o)];
       const std::uint64_t cubes = octant.hit & ~octant.ground;
       if (octant.hit == 0) continue;
-      const std::uint64_t appeared = appeared_in[o];
+      std::uint64_t appeared = octant.appeared;
+      if (appeared != 0 && look_back.around > 0) {
+        int tn = 0, sn = 0;
+        const OcTreeKey c = map.cornerOf(*region, o);
+        for (int dx = -1; dx <= 1; ++dx) for (int dy = -1; dy <= 1; ++dy) for (int dz = -1; dz <= 1; ++dz) {
+          if (std::abs(dx) + std::abs(dy) + std::abs(dz) > look_back.around) continue;
+          const Region* r = map.find(key_type((c[0] + 4 * dx) >> map.bits()), key_type((c[1] + 4 * dy) >> map.bits()), key_type((c[2] + 4 * dz) >> map.bits()));
+          if (r == nullptr) continue;
+          const Octant& n = r->octants[map.octantOf(OcTreeKey(c[0] + 4 * dx, c[1] + 4 * dy, c[2] + 4 * dz))];
+          const std::uint64_t app = r->scan == trace.scan ? n.appeared : 0;
+          tn += std::popcount(app);
+          sn += std::popcount(n.occupied & n.firm & ~n.ground & ~app & ~n.doubted);
+        }
+        if (tn < look_back.around_share * (tn + sn)) appeared = 0;
+      }
       forEachCell(octant.hit, map.cornerOf(*region, o), shift, [&](const OcTreeKey& corner, std::uint64_t hit, int) {
         const int x = corner[0] >> shift, y = corner[1] >> shift, z = corner[2] >> shift;
         solid.set(x, y, z);
@@ -86,6 +101,8 @@ std::size_t rejectInVoid(const RegionMap& map, const GroundEstimation& ground, c
       rejected += static_cast<std::size_t>(std::popcount(out));
       octant.occupied &= ~out;
       octant.ground &= ~out;
+      octant.firm &= ~out;
+      octant.doubted &= ~out;
       if (const std::uint64_t known = out & ~octant.fresh; known != 0) removed.push_back({corner, known, false});
       forEachBit(out, [&](int bit) { if (g_dbg) { auto k = cubeOf(corner, bit); g_dbg->push_back({k[0],k[1],k[2],(octant.fresh>>bit&1)?1:2,octant.hits[bit],g_scan}); } octant.hits[static_cast<std::size_t>(bit)] = 0; });
       map.find(region->x, region->y)->stale = true;

@@ -62,16 +62,17 @@ struct VoidConfig {
   double grown_ground = 0.07; ///< growth takes also ground cubes this much above their plane [m]; below 0: none
 };
 
-struct LookBack { bool enabled = true; int scans = 6, stride = 3, need = 2; double share = 0; };
+struct LookBack { bool enabled = true; int scans = 6, stride = 3, need = 2; double share = 0; int around = 3; double around_share = .6; int firm = 3; };
 struct Verdict { double misses = 1, per_hit = 0, cap = 20, region_share = 0, octant_share = 0; };
 struct SweepConfig {
   bool enabled = true;
   double max_range = 80;
   bool ground = true;
-  Verdict ratio{1, 0, 20, 0.8, 0};
-  Verdict other{3, 0, 20, 0.8, 0};
-  Verdict late{1, 0, 20, 0.8, 0};
-  Verdict sure{10, 0, 20, 0.5, 0.0};
+  Verdict ratio{1, 0, 20, 0, 0.8};
+  Verdict other{3, 0, 20, 0, 0.8};
+  Verdict late{1, 0, 20, 0, 0.8};
+  Verdict sure{10, 0, 20, 0, 0.6};
+  int around = 3;
   bool late_other = false;
   double hit_weight = 0;
 };
