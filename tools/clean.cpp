@@ -38,20 +38,19 @@ struct CleanSummary {
 };
 
 constexpr const char* kFooter =
-    "SEQUENCE is what `rhmap build` reads. Scan by scan, what has moved away is taken out of the map and what moves "
-    "is\n"
-    "kept out of it:\n"
+    "SEQUENCE is what `rhmap build` reads. Scan by scan, what has moved away is taken out of the map and what\n"
+    "moves is kept out of it:\n"
     "  paper    RH-Map as published\n"
     "  fast     its 2D scan context and back end, and only cubes that the scan sees through\n"
     "  default  the same, and whatever appears in space that was free for long does not enter\n"
-    "MAP is a map (.bt, .ot) or the centres of its occupied cells (.ply, .pcd). Points nearer than --min-range are "
-    "the\n"
-    "carrier's own. Times are processor times, of one thread. The example of a real drive wants data/unpack.sh to have "
-    "run.\n\n"
+    "MAP is a map (.bt, .ot) or the centres of its occupied cells (.ply, .pcd). Points nearer than --min-range\n"
+    "are the carrier's own. Times are processor times, of one thread. The examples want data/unpack.sh to have\n"
+    "run.\n"
+    "\n"
     "Examples:\n"
     "  rhmap clean build/data/kitti_raw_0005 clean.bt --frames 0-9\n"
     "  rhmap clean build/data/kitti_raw_0005 clean.ot clean.ply --frames 0-4 --profile fast --json summary.json\n"
-    "  rhmap clean build/data/kitti_raw_0005 clean.bt --frames 0-4 --resolution 0.2 --region-size 4 --front-end-only";
+    "  rhmap clean build/data/kitti_raw_0005 clean.bt --frames 0-4 --resolution 0.2 --front-end-only";
 
 std::size_t countOccupied(const OcTree& map) {
   std::size_t count = 0;

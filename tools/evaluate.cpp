@@ -36,20 +36,22 @@ constexpr std::array<std::string_view, 7> kMapFiles{".bt", ".ot", ".pcd", ".ply"
 constexpr std::array<const char*, 3> kMapperOptions{"--region-size", "--free-space", "--front-end-only"};
 
 constexpr const char* kFooter =
-    "SEQUENCE has labels in SemanticKITTI's layout (labels/NNNNNN.label): classes 251-259 move, 0 is not counted.\n"
-    "The rows of the mapper are those of `rhmap clean` with the same options, one a profile; they come with the "
-    "scores\n"
-    "while the map grew (protocol online) and with the processor time of a scan. --map FILE adds what another method\n"
-    "left: an occupancy map (.bt, .ot) or points in the world frame (.pcd, .ply, .xyz, .txt, .dat); alone it leaves "
-    "the\n"
-    "mapper out. Two rows are always there: `no removal` keeps everything, `oracle` leaves out exactly the points\n"
-    "labelled as moving. Rates are in per cent but F1, a dash where there is nothing to divide by; doc/evaluation.md "
-    "has\n"
-    "the protocols. The examples want data/unpack.sh to have run.\n\n"
+    "SEQUENCE has labels in SemanticKITTI's layout (labels/NNNNNN.label): classes 251-259 move, 0 is not\n"
+    "counted. The rows of the mapper are those of `rhmap clean` with the same options, one a profile; with them\n"
+    "come the scores while the map grew (protocol online) and the processor time of a scan. --map FILE adds\n"
+    "what another method left, an occupancy map (.bt, .ot) or points in the world frame (.pcd, .ply, .xyz,\n"
+    ".txt, .dat), and alone it leaves the mapper out. Two rows are always there: `no removal` keeps everything,\n"
+    "`oracle` leaves out exactly the points labelled as moving. --tables looks for SEQUENCE/sequences/NN and\n"
+    "SEQUENCE/NN: 00 4390-4530, 01 150-250, 02 860-950, 05 2350-2670 and 07 630-820 unless --windows has\n"
+    "others. Rates are in per cent but F1, a dash where there is nothing to divide by; doc/evaluation.md has\n"
+    "the protocols. The examples want data/unpack.sh to have run.\n"
+    "\n"
     "Examples:\n"
-    "  rhmap evaluate build/data/kitti_raw_0005 --frames 0-9\n"
-    "  rhmap evaluate build/data/kitti_raw_0005 --frames 0-9 --profile paper,fast,default --protocol rhmap\n"
-    "  rhmap evaluate build/data/kitti_raw_0005 --frames 0-4 --front-end-only --protocol rhmap,kth --json scores.json";
+    "  rhmap evaluate build/data/kitti_raw_0005 --frames 0-4\n"
+    "  rhmap evaluate build/data/kitti_raw_0005 --frames 0-4 --profile fast,default --json scores.json\n"
+    "  rhmap evaluate build/data/kitti_raw_0005 --frames 0-4 --front-end-only --protocol rhmap,kth\n"
+    "  rhmap evaluate build/data/kitti_raw_0005 --frames 0-1 --ablation\n"
+    "  rhmap evaluate build/data --tables --windows kitti_raw_0005:0-4 --profile default";
 
 CLI::Validator mapFile() {
   return CLI::Validator(
@@ -148,11 +150,13 @@ void addEvaluate(CLI::App& app) {
                    fmt::format("Any of: {} (default: default, or none with --map)", profileNames()))
       ->type_name("NAMES")
       ->delimiter(',')
+      ->allow_extra_args(false)
       ->check(profileName());
   verb->add_option("--protocol", options->protocols,
                    fmt::format("Any of: {} (default: all)", fmt::join(kProtocols, ", ")))
       ->type_name("NAMES")
       ->delimiter(',')
+      ->allow_extra_args(false)
       ->check(oneOf("protocol", kProtocols));
   addRemovalOptions(*verb, options->removal);
   verb->add_option("--ego-radius", options->ego_radius,
@@ -169,6 +173,7 @@ void addEvaluate(CLI::App& app) {
   verb->add_option("--windows", options->windows, "Scans of the tables (default: the paper's, e.g. 05:2350-2670)")
       ->type_name("SEQUENCE:A-B,...")
       ->delimiter(',')
+      ->allow_extra_args(false)
       ->check(windowOfSequence())
       ->needs("--tables");
   addJson(*verb, options->json, "counts, rates and times");

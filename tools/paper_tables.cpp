@@ -54,17 +54,24 @@ bool anyPublished(std::span<const Result> results) {
   return std::any_of(results.begin(), results.end(), [](const Result& r) { return publishedOf(r.window) != nullptr; });
 }
 
+/// The first two columns of a row; names of sequences may be longer than SemanticKITTI's.
+std::string heading(std::span<const Result> results, std::string_view sequence, std::string_view row) {
+  std::size_t width = 6;
+  for (const Result& result : results) width = std::max(width, result.window.sequence.size() + 2);
+  return fmt::format("{:<{}}{:<26}", sequence, width, row);
+}
+
 /// Table I under one protocol.
 std::string scoreTable(std::span<const Result> results, const std::string& protocol) {
-  std::string text = fmt::format("\nTable I: PR, RR [%] and F1, protocol {}\n{:<6}{:<26}{:>9}{:>9}{:>9}", protocol,
-                                 "seq", "", "PR", "RR", "F1");
+  std::string text = fmt::format("\nTable I: PR, RR [%] and F1, protocol {}\n{}{:>9}{:>9}{:>9}", protocol,
+                                 heading(results, "seq", ""), "PR", "RR", "F1");
   if (anyPublished(results)) text += fmt::format("{:>14}{:>9}{:>9}", "published PR", "RR", "F1");
   text += "\n";
   for (const Result& result : results) {
     const PublishedWindow* published = publishedOf(result.window);
     for (const eval::Score& score : result.evaluation.scores) {
       if (score.protocol != protocol) continue;
-      text += fmt::format("{:<6}{:<26}", result.window.sequence, score.row) + rate(score.cells->staticKept(), 100, 2) +
+      text += heading(results, result.window.sequence, score.row) + rate(score.cells->staticKept(), 100, 2) +
               rate(score.cells->dynamicRemoved(), 100, 2) + rate(score.cells->harmonicMean(), 1, 4);
       const bool is_run = score.row != "no removal" && score.row != "oracle";
       if (published != nullptr && is_run) {
@@ -79,8 +86,8 @@ std::string scoreTable(std::span<const Result> results, const std::string& proto
 
 /// Table II: the mean of a scan, front and back end.
 std::string speedTable(std::span<const Result> results) {
-  std::string text = fmt::format(
-      "\nTable II: processor time of a scan, mean, and scans a second\n{:<6}{:<26}{:>9}{:>9}", "seq", "", "ms", "Hz");
+  std::string text = fmt::format("\nTable II: processor time of a scan, mean, and scans a second\n{}{:>9}{:>9}",
+                                 heading(results, "seq", ""), "ms", "Hz");
   if (anyPublished(results)) text += fmt::format("{:>14}{:>9}", "published ms", "Hz");
   text += "\n";
   for (const Result& result : results) {
@@ -88,7 +95,8 @@ std::string speedTable(std::span<const Result> results) {
     for (const MapperRun& run : result.evaluation.runs) {
       if (run.name.ends_with(kFrontEnd)) continue;
       const double seconds = run.figures.meanSeconds();
-      text += fmt::format("{:<6}{:<26}{:>9.2f}{:>9.1f}", result.window.sequence, run.name, 1e3 * seconds, 1 / seconds);
+      text += heading(results, result.window.sequence, run.name) +
+              fmt::format("{:>9.2f}{:>9.1f}", 1e3 * seconds, 1 / seconds);
       if (published != nullptr) text += fmt::format("{:>14.2f}{:>9.1f}", published->milliseconds, published->hertz);
       text += "\n";
     }

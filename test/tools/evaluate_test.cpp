@@ -205,6 +205,11 @@ TEST_F(EvaluateTest, WithoutMoversRatesAreNullAndADash) {
       std::string::npos);
 }
 
+TEST_F(EvaluateTest, ListsEndBeforeTheSequence) {
+  const auto json = summary("--protocol rhmap,kth --profile fast,default street");
+  EXPECT_EQ(json["rows"].size(), 2 * 4 + 4U);
+}
+
 TEST_F(EvaluateTest, TheResolutionIsThatOfTheCubes) {
   EXPECT_EQ(rows("--resolution 2 --protocol rhmap")[0]["cells"]["static"], 4);
 }
