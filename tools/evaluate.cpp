@@ -42,9 +42,8 @@ constexpr const char* kFooter =
     "what another method left, an occupancy map (.bt, .ot) or points in the world frame (.pcd, .ply, .xyz,\n"
     ".txt, .dat), and alone it leaves the mapper out. Two rows are always there: `no removal` keeps everything,\n"
     "`oracle` leaves out exactly the points labelled as moving. --tables looks for SEQUENCE/sequences/NN and\n"
-    "SEQUENCE/NN: 00 4390-4530, 01 150-250, 02 860-950, 05 2350-2670 and 07 630-820 unless --windows has\n"
-    "others. Rates are in per cent but F1, a dash where there is nothing to divide by; doc/evaluation.md has\n"
-    "the protocols. The examples want data/unpack.sh to have run.\n"
+    "SEQUENCE/NN. Rates are in per cent but F1, a dash where there is nothing to divide by; doc/evaluation.md\n"
+    "has the protocols. The examples want data/unpack.sh to have run.\n"
     "\n"
     "Examples:\n"
     "  rhmap evaluate build/data/kitti_raw_0005 --frames 0-4\n"
@@ -170,7 +169,7 @@ void addEvaluate(CLI::App& app) {
           "--tables", options->tables,
           "The paper's Tables I and II; SEQUENCE is the folder of SemanticKITTI, rows are --profile's (default: all)")
       ->excludes("--ablation", "--map", "--frames", "--front-end-only");
-  verb->add_option("--windows", options->windows, "Scans of the tables (default: the paper's, e.g. 05:2350-2670)")
+  verb->add_option("--windows", options->windows, "Scans of the tables (default: " + paperWindows() + ")")
       ->type_name("SEQUENCE:A-B,...")
       ->delimiter(',')
       ->allow_extra_args(false)

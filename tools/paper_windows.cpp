@@ -2,6 +2,7 @@
 #include "paper_windows.hpp"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <filesystem>
 #include <optional>
@@ -30,6 +31,13 @@ std::optional<std::size_t> indexOf(const io::ScanSequence& sequence, std::size_t
 
 }  // namespace
 
+std::string paperWindows() {
+  std::vector<std::string> texts;
+  for (const Window& window : windowsOf({}))
+    texts.push_back(fmt::format("{}:{}-{}", window.sequence, window.numbers.first, window.numbers.last));
+  return fmt::format("{}", fmt::join(texts, ","));
+}
+
 CLI::Validator windowOfSequence() {
   return CLI::Validator(
       [](std::string& text) {
@@ -57,11 +65,18 @@ FoundWindow findWindow(const std::string& root, const Window& window) {
     found.missing = "no such folder";
     return found;
   }
-  auto sequence = io::openSequence(folder);
-  const auto first = indexOf(*sequence, window.numbers.first), last = indexOf(*sequence, window.numbers.last);
-  if (!first || !last) {
+  std::unique_ptr<io::ScanSequence> sequence;
+  try {
+    sequence = io::openSequence(folder);
+  } catch (const std::runtime_error& reason) {  // e.g. labels without scans: the other sequences may be whole
+    found.missing = "cannot be read: " + std::string(reason.what());
+    return found;
+  }
+  const auto [from, to] = window.numbers;
+  const auto first = indexOf(*sequence, from), last = indexOf(*sequence, to);
+  if (!first || !last || *last - *first != to - from) {
     found.missing = fmt::format("has scans {} to {}, not all of {}-{}", sequence->name(0),
-                                sequence->name(sequence->size() - 1), window.numbers.first, window.numbers.last);
+                                sequence->name(sequence->size() - 1), from, to);
   } else if (!sequence->hasLabels()) {
     found.missing = "has no labels";
   } else {

@@ -24,6 +24,9 @@ CLI::Validator windowOfSequence();
 /// What --windows says; the windows of the paper if it is empty.
 std::vector<Window> windowsOf(const std::vector<std::string>& texts);
 
+/// The windows of the paper, as --windows takes them.
+std::string paperWindows();
+
 /// A window as it is on disk, or why it is not.
 struct FoundWindow {
   Window window;

@@ -80,12 +80,14 @@ TEST_F(PaperTablesTest, TheirRowsAreThoseOfEvaluate) {
 TEST_F(PaperTablesTest, WhatIsMissingIsNamedAndTheRestHasThePublishedFiguresBeside) {
   writeClipOf02();
   runs("simulate street kitti/sequences/05 --beams 16 --frames 2");
+  std::filesystem::create_directories(folder / "kitti/sequences/07/labels");
   const std::string text = runs("evaluate kitti --tables --profile fast --json tables.json");
-  for (const std::string part : {"missing   00 no such folder; 01 no such folder; 05 has scans 000000 to 000001, not "
-                                 "all of 2350-2670; 07 no such "
-                                 "folder\n",
-                                 "sequence  02, scans 860-950\n", "  98.86    77.28   0.8670\n",
-                                 "  90.44    91.27   0.9085\n", "  66.98     14.9\n"})
+  for (const std::string part :
+       {"missing   00 no such folder; 01 no such folder; 05 has scans 000000 to 000001, not all of 2350-2670; 07 "
+        "cannot "
+        "be read: kitti/sequences/07/velodyne: no such folder; KITTI's scans are expected in velodyne/*.bin\n",
+        "sequence  02, scans 860-950\n", "  98.86    77.28   0.8670\n", "  90.44    91.27   0.9085\n",
+        "  66.98     14.9\n"})
     EXPECT_NE(text.find(part), std::string::npos) << part << "\n" << text;
   const auto json = nlohmann::json::parse(bytes("tables.json"));
   EXPECT_EQ(json["sequences"].size(), 1U);
