@@ -144,6 +144,10 @@ CLI::Validator oneOf(std::string what, std::span<const std::string_view> words) 
       });
 }
 
+void addResolution(CLI::App& verb, double& resolution, const std::string& what) {
+  verb.add_option("--resolution", resolution, what)->type_name("M")->capture_default_str()->check(lengthAbove0());
+}
+
 void addMinRange(CLI::App& verb, double& min_range) {
   verb.add_option("--min-range", min_range, "Distance below which points are dropped")
       ->type_name("M")
@@ -151,10 +155,20 @@ void addMinRange(CLI::App& verb, double& min_range) {
       ->check(lengthFrom0());
 }
 
+void addMaxRange(CLI::App& verb, std::optional<double>& max_range, const std::string& what) {
+  verb.add_option("--max-range", max_range, what + " (default: none)")->type_name("M")->check(lengthAbove0());
+}
+
 void addFrames(CLI::App& verb, std::string& frames) {
   verb.add_option("--frames", frames, "Scans A to B, both included (default: all)")
       ->type_name("A-B")
       ->check(frameRange());
+}
+
+void addJson(CLI::App& verb, std::string& json, const std::string& what) {
+  verb.add_option("--json", json, "Write " + what + " as JSON, - for stdout")
+      ->type_name("FILE")
+      ->check(outputFileOrStdout());
 }
 
 void requireExists(const std::string& path) {

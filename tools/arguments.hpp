@@ -57,9 +57,15 @@ CLI::Validator frameRange();
 /// Accepts one of these words; `what` is the noun for a wrong one.
 CLI::Validator oneOf(std::string what, std::span<const std::string_view> words);
 
-/// Options of the verbs that read a sequence: points nearer than this [m] are dropped; the scans for chooseFrames().
+/// Options of the verbs that read a sequence: the edge of a cube; points nearer than this [m] are dropped; what happens
+/// beyond a distance, none unless told; the scans for chooseFrames().
+void addResolution(CLI::App& verb, double& resolution, const std::string& what);
 void addMinRange(CLI::App& verb, double& min_range);
+void addMaxRange(CLI::App& verb, std::optional<double>& max_range, const std::string& what);
 void addFrames(CLI::App& verb, std::string& frames);
+
+/// A file for `what` as JSON.
+void addJson(CLI::App& verb, std::string& json, const std::string& what);
 
 /// Throws "FILE: No such file" when there is none.
 void requireExists(const std::string& path);

@@ -6,7 +6,6 @@
 #include <algorithm>
 #include <array>
 #include <chrono>
-#include <filesystem>
 #include <memory>
 #include <nlohmann/json.hpp>
 #include <sstream>
@@ -96,7 +95,7 @@ bool sameBytes(const Mapper& a, const Mapper& b, void (Mapper::*write)(std::ostr
 WrittenFile writeMap(const std::string& path, const Mapper& mapper) {
   const auto write = extensionOf(path) == ".bt" ? &Mapper::writeBinary : &Mapper::write;
   writeFileWhole(path, [&](std::ostream& out) { (mapper.*write)(out); });
-  return {path, std::filesystem::file_size(path)};
+  return writtenFile(path);
 }
 
 void build(const BuildOptions& options) {
@@ -144,13 +143,8 @@ void addBuild(CLI::App& app) {
       ->required()
       ->type_name("")
       ->check(outputFile(kMapExtensions));
-  verb->add_option("--resolution", options->resolution, "Edge of the smallest cube")
-      ->type_name("M")
-      ->capture_default_str()
-      ->check(lengthAbove0());
-  verb->add_option("--max-range", options->max_range, "Length at which rays are cut (default: none)")
-      ->type_name("M")
-      ->check(lengthAbove0());
+  addResolution(*verb, options->resolution, "Edge of the smallest cube");
+  addMaxRange(*verb, options->max_range, "Length at which rays are cut");
   addMinRange(*verb, options->min_range);
   verb->add_option("--mapper", options->mapper, fmt::format("One of: {}", fmt::join(mapperKinds(), ", ")))
       ->type_name("NAME")
@@ -162,9 +156,7 @@ void addBuild(CLI::App& app) {
       ->capture_default_str()
       ->check(countFrom1("threads"));
   verb->add_flag("--compare", options->compare, "Build with OctoMap as well and compare time, memory and bytes");
-  verb->add_option("--json", options->json, "Write the summary as JSON, - for stdout")
-      ->type_name("FILE")
-      ->check(outputFileOrStdout());
+  addJson(*verb, options->json, "the summary");
   verb->group("Verbs");
   verb->footer(kFooter);
   verb->callback([options] { build(*options); });

@@ -3,28 +3,14 @@
 
 #include <fmt/format.h>
 
-#include <algorithm>
 #include <functional>
 #include <nlohmann/json.hpp>
-#include <numeric>
 
+#include "statistics.hpp"
 #include "text.hpp"
 
 namespace rhmap::tools {
 namespace {
-
-double total(const std::vector<double>& values) { return std::accumulate(values.begin(), values.end(), 0.0); }
-
-double mean(const std::vector<double>& values) {
-  return values.empty() ? 0 : total(values) / static_cast<double>(values.size());
-}
-
-double median(std::vector<double> values) {
-  if (values.empty()) return 0;
-  std::sort(values.begin(), values.end());
-  const std::size_t half = values.size() / 2;
-  return values.size() % 2 == 1 ? values[half] : 0.5 * (values[half - 1] + values[half]);
-}
 
 /// OctoMap over rhmap, which stand in this order; nothing without a second map or a zero below the line.
 std::optional<double> ratio(const BuildSummary& summary, const std::function<double(const MapFigures&)>& figure) {
@@ -84,9 +70,7 @@ std::string toText(const BuildSummary& summary) {
     const auto verdict = [](bool same) { return same ? "identical" : "DIFFERENT"; };
     text += fmt::format("bytes     .ot {}, .bt {}\n", verdict(summary.identity->ot), verdict(summary.identity->bt));
   }
-  for (const WrittenFile& file : summary.files)
-    text += fmt::format("written   {} ({})\n", file.path, byteSize(file.bytes));
-  return text;
+  return text + toText(summary.files);
 }
 
 nlohmann::ordered_json toJson(const BuildSummary& summary) {
@@ -116,8 +100,7 @@ nlohmann::ordered_json toJson(const BuildSummary& summary) {
                        {"ot_identical", summary.identity->ot},
                        {"bt_identical", summary.identity->bt}};
   }
-  json["files"] = nlohmann::ordered_json::array();
-  for (const WrittenFile& file : summary.files) json["files"].push_back({{"path", file.path}, {"bytes", file.bytes}});
+  json["files"] = toJson(summary.files);
   return json;
 }
 

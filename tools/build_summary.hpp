@@ -2,14 +2,13 @@
 #pragma once
 
 #include <cstddef>
-#include <cstdint>
 #include <nlohmann/json_fwd.hpp>
 #include <optional>
 #include <string>
 #include <vector>
 
 #include "arguments.hpp"
-#include "rhmap/baseline/mapper.hpp"
+#include "written_file.hpp"
 
 namespace rhmap::tools {
 
@@ -41,11 +40,6 @@ struct MapFigures {
 struct Identity {
   bool ot = false;
   bool bt = false;
-};
-
-struct WrittenFile {
-  std::string path;
-  std::uintmax_t bytes = 0;
 };
 
 /// What `rhmap build` tells.

@@ -3,9 +3,12 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <iterator>
 #include <nlohmann/json.hpp>
 #include <optional>
 #include <set>
+#include <vector>
 
 #include "text.hpp"
 
@@ -23,6 +26,30 @@ std::string keptOf(const Survivors& survivors) { return grouped(survivors.kept) 
 
 constexpr std::size_t kNameWidth = 14;
 
+/// SemanticKITTI's moving classes; 251 is our clip's, and stands apart.
+constexpr std::uint16_t kFirstMoving = 252, kLastMoving = 259;
+
+/// A column of the dynamic ones of some classes.
+struct ClassColumn {
+  std::uint16_t first;
+  std::uint16_t last;
+};
+
+std::string nameOf(const ClassColumn& column) {
+  return column.first == column.last ? fmt::format("{}", column.first)
+                                     : fmt::format("{}-{}", column.first, column.last);
+}
+
+/// A column a class that occurs, and one for all but 251 where that would be news.
+std::vector<ClassColumn> columnsOf(const std::set<std::uint16_t>& classes) {
+  std::vector<ClassColumn> columns;
+  const auto first = classes.lower_bound(kFirstMoving);
+  if (first != classes.begin() && std::distance(first, classes.end()) > 1)
+    columns.push_back({*first, *classes.rbegin()});
+  for (const std::uint16_t label : classes) columns.push_back({label, label});
+  return columns;
+}
+
 /// One table of cells or of points, whichever `part` chooses.
 struct Table {
   std::optional<Counts> Score::*part;
@@ -39,23 +66,25 @@ std::string toText(const Table& table, std::span<const Score> scores) {
   for (const Score& score : scores) {
     for (const auto& [label, survivors] : (score.*table.part)->classes) classes.insert(label);
   }
+  const auto columns = columnsOf(classes);
+  std::size_t width = kNameWidth;
+  for (const Score& score : scores) width = std::max(width, score.row.size());
   const std::string unit = table.unit;
-  std::string text =
-      fmt::format("{:<{}}{:>8}{:>8}{:>8}{:>8}{:>26}{:>22}", "", kNameWidth, table.rates[0], table.rates[1],
-                  table.rates[2], table.points ? "HA" : "", "static " + unit + " kept", "dynamic kept");
-  for (const std::uint16_t label : classes) text += fmt::format("{:>8}", fmt::format("{} {}", table.rates[1], label));
+  std::string text = fmt::format("{:<{}}{:>8}{:>8}{:>8}{:>8}{:>26}{:>22}", "", width, table.rates[0], table.rates[1],
+                                 table.rates[2], table.points ? "HA" : "", "static " + unit + " kept", "dynamic kept");
+  for (const ClassColumn& column : columns)
+    text += fmt::format("  {:>6}", fmt::format("{} {}", table.rates[1], nameOf(column)));
   text += "\n";
   for (const Score& score : scores) {
     const Counts& counts = *(score.*table.part);
     text +=
-        fmt::format("{:<{}}{:>8}{:>8}{:>8}{:>8}{:>26}{:>22}", score.row, kNameWidth, percent(counts.staticKept()),
+        fmt::format("{:<{}}{:>8}{:>8}{:>8}{:>8}{:>26}{:>22}", score.row, width, percent(counts.staticKept()),
                     percent(counts.dynamicRemoved()),
                     table.points ? percent(counts.geometricMean()) : fraction(counts.harmonicMean()),
                     table.points ? percent(counts.harmonicMean()) : "", keptOf(counts.still), keptOf(counts.moving));
-    for (const std::uint16_t label : classes) {
-      const auto found = counts.classes.find(label);
-      text += fmt::format("{:>8}", found == counts.classes.end() ? "-" : percent(eval::removed(found->second)));
-    }
+    for (const ClassColumn& column : columns)
+      text += fmt::format("  {:>{}}", percent(eval::removed(counts.movingOf(column.first, column.last))),
+                          std::max<std::size_t>(6, 3 + nameOf(column).size()));
     text += "\n";
   }
   return text;
@@ -74,12 +103,17 @@ nlohmann::ordered_json toJson(const Table& table, const Counts& counts) {
                               {table.rates[1], orNull(counts.dynamicRemoved())}};
   if (table.points) json["AA"] = orNull(counts.geometricMean());
   json[table.points ? "HA" : "F1"] = orNull(counts.harmonicMean());
+  const auto figures = [&table](const char* key, const nlohmann::ordered_json& value, const Survivors& survivors) {
+    return nlohmann::ordered_json{{key, value},
+                                  {"dynamic", survivors.total},
+                                  {"dynamic_kept", survivors.kept},
+                                  {table.rates[1], orNull(eval::removed(survivors))}};
+  };
+  json["groups"] = {
+      figures("classes", "251", counts.movingOf(251, 251)),
+      figures("classes", nameOf({kFirstMoving, kLastMoving}), counts.movingOf(kFirstMoving, kLastMoving))};
   json["classes"] = nlohmann::ordered_json::array();
-  for (const auto& [label, survivors] : counts.classes)
-    json["classes"].push_back({{"class", label},
-                               {"dynamic", survivors.total},
-                               {"dynamic_kept", survivors.kept},
-                               {table.rates[1], orNull(eval::removed(survivors))}});
+  for (const auto& [label, survivors] : counts.classes) json["classes"].push_back(figures("class", label, survivors));
   return json;
 }
 

@@ -54,6 +54,7 @@ int run(int argc, char** argv) {
   app.footer(kExamples);
   app.get_formatter()->label("SUBCOMMAND", "VERB");
   rhmap::tools::addBuild(app);
+  rhmap::tools::addClean(app);
   rhmap::tools::addInfo(app);
   rhmap::tools::addConvert(app);
   rhmap::tools::addEvaluate(app);

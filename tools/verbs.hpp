@@ -9,6 +9,7 @@ namespace rhmap::tools {
 
 /// Each adds one verb to the program: its options, its help and what it does when it is called.
 void addBuild(CLI::App& app);
+void addClean(CLI::App& app);
 void addInfo(CLI::App& app);
 void addConvert(CLI::App& app);
 void addEvaluate(CLI::App& app);

@@ -5,10 +5,7 @@
 
 namespace rhmap::eval {
 
-LabelledScan readLabelledScan(const io::ScanSequence& sequence, std::size_t i, const SequenceWindow& window) {
-  const io::Scan scan = sequence.scan(i);
-  if (scan.labels.size() != scan.points.size())
-    throw std::runtime_error("scan " + sequence.name(i) + " has no labels; nothing can be scored against it");
+LabelledScan labelledScan(const io::Scan& scan, const SequenceWindow& window) {
   octomap::Pointcloud world(scan.points);
   world.transform(scan.pose);
   LabelledScan result;
@@ -20,6 +17,13 @@ LabelledScan readLabelledScan(const io::ScanSequence& sequence, std::size_t i, c
     result.labels.push_back(scan.labels[k]);
   }
   return result;
+}
+
+LabelledScan readLabelledScan(const io::ScanSequence& sequence, std::size_t i, const SequenceWindow& window) {
+  const io::Scan scan = sequence.scan(i);
+  if (scan.labels.size() != scan.points.size())
+    throw std::runtime_error("scan " + sequence.name(i) + " has no labels; nothing can be scored against it");
+  return labelledScan(scan, window);
 }
 
 }  // namespace rhmap::eval

@@ -22,6 +22,9 @@ inline double squaredDistance(const octomap::point3d& a, const octomap::point3d&
 
 /// Points sorted into cells, for neighbours within a radius that is not much larger than a cell. The points must live
 /// as long as the grid.
+///
+/// Not a k-d tree: nanoflann's gives the same scores, in 0.9 of the time for protocol kth, but takes twice as long for
+/// erasor, which wants a new index for each scan; and what adapts it to rims, ties and visitors is as long as this.
 class PointGrid {
  public:
   struct Neighbour {

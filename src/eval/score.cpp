@@ -34,6 +34,15 @@ void Counts::add(const Labels& labels, std::uint32_t label, bool kept) {
   }
 }
 
+Survivors Counts::movingOf(std::uint16_t first, std::uint16_t last) const {
+  Survivors sum;
+  for (auto found = classes.lower_bound(first); found != classes.end() && found->first <= last; ++found) {
+    sum.total += found->second.total;
+    sum.kept += found->second.kept;
+  }
+  return sum;
+}
+
 std::optional<double> Counts::staticKept() const { return share(still.kept, still.total); }
 
 std::optional<double> Counts::dynamicRemoved() const { return removed(moving); }

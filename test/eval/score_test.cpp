@@ -67,5 +67,12 @@ TEST(Counts, AddByKindAndClass) {
   EXPECT_EQ(counts, (Counts{.still = {2, 1}, .moving = {3, 1}, .classes = {{252, {2, 1}}, {254, {1, 0}}}}));
 }
 
+TEST(Counts, ClassesAreSummedBetweenTwoThatCount) {
+  const Counts counts{.still = {}, .moving = {}, .classes = {{251, {5, 4}}, {252, {2, 1}}, {254, {1, 0}}}};
+  EXPECT_EQ(counts.movingOf(252, 254), (Survivors{3, 1}));
+  EXPECT_EQ(counts.movingOf(251, 251), (Survivors{5, 4}));
+  EXPECT_EQ(counts.movingOf(255, 259), Survivors{});
+}
+
 }  // namespace
 }  // namespace rhmap::eval

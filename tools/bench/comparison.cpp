@@ -54,12 +54,6 @@ void readMap(Library& library, const std::filesystem::path& file) {
 
 }  // namespace
 
-double median(std::vector<double> values) {
-  std::sort(values.begin(), values.end());
-  const std::size_t n = values.size();
-  return n == 0 ? 0 : (values[(n - 1) / 2] + values[n / 2]) / 2;
-}
-
 void compare(std::span<const WorldScan> scans, double resolution, const ComparisonConfig& config,
              const std::function<void(const Row&)>& done, const std::function<void(const MemoryRow&)>& memory_done) {
   Pair pair(resolution);

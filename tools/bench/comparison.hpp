@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "../statistics.hpp"
 #include "library.hpp"
 
 namespace rhmap::bench {
@@ -35,7 +36,7 @@ struct MemoryRow {
   bool same_answers = true;
 };
 
-double median(std::vector<double> values);
+using tools::median;
 
 /// How many times OctoMap's median is rhmap's.
 inline double ratio(const Row& row) { return median(row.octomap) / median(row.rhmap); }

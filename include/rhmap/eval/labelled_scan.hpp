@@ -27,6 +27,9 @@ struct SequenceWindow {
   std::optional<double> max_range = std::nullopt;  ///< farther points are left out [m]
 };
 
+/// A scan with labels, without the points outside of the window's ranges.
+LabelledScan labelledScan(const io::Scan& scan, const SequenceWindow& window);
+
 /// Scan i without the points outside of the window's ranges. Throws std::runtime_error that says which scan has no
 /// labels, or cannot be read.
 LabelledScan readLabelledScan(const io::ScanSequence& sequence, std::size_t i, const SequenceWindow& window);

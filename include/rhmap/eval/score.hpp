@@ -31,6 +31,9 @@ struct Counts {
   /// Counts one of the class of `label`; ignored labels are not counted.
   void add(const Labels& labels, std::uint32_t label, bool kept);
 
+  /// The dynamic ones of the classes from `first` to `last`, both included.
+  Survivors movingOf(std::uint16_t first, std::uint16_t last) const;
+
   /// PR of cells, SA of points: how much of the static world is kept.
   std::optional<double> staticKept() const;
 
