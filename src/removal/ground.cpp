@@ -66,7 +66,10 @@ std::optional<Plane> fitGround(std::span<const LocalCube> cubes, const GroundCon
 }
 
 GroundEstimation::GroundEstimation(const GroundConfig& config, double resolution)
-    : config_(config), resolution_(resolution), r_gro_(static_cast<float>(config.r_gro / resolution)) {}
+    : config_(config),
+      resolution_(resolution),
+      r_gro_(static_cast<float>(config.r_gro / resolution)),
+      thin_(config.thin < 0 ? r_gro_ : static_cast<float>(config.thin / resolution)) {}
 
 void GroundEstimation::update(const RegionMap& map, const ScanTrace& trace) const {
   if (!config_.enabled) return;
@@ -92,7 +95,8 @@ void GroundEstimation::setBase(Column& column, Region* lowest) const {
   for (const auto& region : column.regions) {
     region->fitted = false;
     region->at_fit = 0;
-    for (Octant& octant : region->octants) octant.ground = 0;
+    region->loose = true;
+    for (Octant& octant : region->octants) octant.ground = octant.safe = 0;
   }
   column.base = lowest;
 }
@@ -166,36 +170,25 @@ void GroundEstimation::mark(const RegionMap& map, const Column& column, Region& 
       if (beside != nullptr) consider(beside->base);
     }
   }
+  std::uint64_t loose = 0;
   for (std::size_t o = 0; o < region.octants.size(); ++o) {
     Octant& octant = region.octants[o];
     const std::uint64_t which = only_fresh ? octant.fresh & octant.occupied : octant.occupied;
-    std::uint64_t ground = octant.ground & ~which;
-    forEachBit(which, [&](int bit) {
+    std::uint64_t ground = 0, safe = 0;
+    forEachBit(n == 0 ? 0 : which, [&](int bit) {
       const LocalCube c = localCube(o, bit);
       const auto x = static_cast<float>(c.x), y = static_cast<float>(c.y), z = static_cast<float>(c.z);
-      for (std::size_t i = 0; i < n; ++i) {
-        if (near[i].plane->above(x + near[i].dx, y + near[i].dy, z + near[i].dz) >= r_gro_) continue;
-        ground |= maskOf(bit);
-        break;
-      }
+      float lowest = r_gro_;
+      for (std::size_t i = 0; i < n; ++i)
+        lowest = std::min(lowest, near[i].plane->above(x + near[i].dx, y + near[i].dy, z + near[i].dz));
+      if (lowest < r_gro_) ground |= maskOf(bit);
+      if (lowest <= thin_) safe |= maskOf(bit);
     });
-    octant.ground = ground;
+    octant.ground = (octant.ground & ~which) | ground;
+    octant.safe = (octant.safe & ~which) | (ground & safe);
+    loose |= octant.occupied & ~octant.safe;
   }
-}
-
-std::uint64_t GroundEstimation::aboveThin(const RegionMap& map, const Column& column, const Region& region,
-                                          std::size_t octant, std::uint64_t ground) const {
-  const Region* base = column.base;
-  if (ground == 0 || config_.thin < 0 || base == nullptr || !base->fitted) return 0;
-  const auto limit = static_cast<float>(config_.thin / resolution_);
-  const auto dz = static_cast<float>((int{region.z} - int{base->z}) << map.bits());
-  std::uint64_t result = 0;
-  forEachBit(ground, [&](int bit) {
-    const LocalCube c = localCube(octant, bit);
-    if (base->plane.above(static_cast<float>(c.x), static_cast<float>(c.y), static_cast<float>(c.z) + dz) > limit)
-      result |= maskOf(bit);
-  });
-  return result;
+  region.loose = loose != 0;
 }
 
 }  // namespace rhmap

@@ -28,11 +28,6 @@ class GroundEstimation {
   /// After a scan was inserted.
   void update(const RegionMap& map, const ScanTrace& trace) const;
 
-  /// Of these ground cubes of an octant, those that are too far above their column's plane to be safe
-  /// (GroundConfig::thin).
-  std::uint64_t aboveThin(const RegionMap& map, const Column& column, const Region& region, std::size_t octant,
-                          std::uint64_t ground) const;
-
  private:
   void setBase(Column& column, Region* lowest) const;
   bool isCandidate(const RegionMap& map, const Region& region) const;
@@ -42,7 +37,7 @@ class GroundEstimation {
 
   GroundConfig config_;
   double resolution_;
-  float r_gro_;  // [cubes]
+  float r_gro_, thin_;  // [cubes]
 };
 
 }  // namespace rhmap

@@ -5,8 +5,8 @@
 
 namespace rhmap {
 
-std::size_t MovingHits::reject(const RegionMap& map, const GroundEstimation& ground, const ScanTrace& trace,
-                               const FreeSpace& free_space, std::vector<RemovedCubesOf>& removed) const {
+std::size_t MovingHits::reject(const RegionMap& map, const ScanTrace& trace, const FreeSpace& free_space,
+                               std::vector<RemovedCubesOf>& removed) const {
   if (config_.look_back.enabled) lookBack(map, trace);
 
   // Seeds: cells with hits in the void, or with cubes that have come.
@@ -45,18 +45,15 @@ std::size_t MovingHits::reject(const RegionMap& map, const GroundEstimation& gro
   }
   std::size_t rejected = 0;
   for (Region* region : trace.regions) {
-    Column* column = nullptr;
     for (std::size_t o = 0; o < region->octants.size(); ++o) {
       Octant& octant = region->octants[o];
       const OcTreeKey corner = map.cornerOf(*region, o);
       std::uint64_t out = 0;
-      forEachCell(octant.hit & octant.occupied, corner, shift,
+      forEachCell(octant.hit & octant.occupied & ~octant.safe, corner, shift,
                   [&](const OcTreeKey& cell, std::uint64_t hit, std::size_t) {
                     if (moving.at(cell[0] >> shift, cell[1] >> shift, cell[2] >> shift)) out |= hit;
                   });
       if (out == 0) continue;
-      if (column == nullptr) column = map.find(region->x, region->y);
-      out = (out & ~octant.ground) | ground.aboveThin(map, *column, *region, o, out & octant.ground);
       forEachBit(out, [&](int bit) {
         if (octant.hits[static_cast<std::size_t>(bit)] > config_.free_space.known) out &= ~maskOf(bit);
       });
@@ -64,7 +61,7 @@ std::size_t MovingHits::reject(const RegionMap& map, const GroundEstimation& gro
       rejected += static_cast<std::size_t>(std::popcount(out));
       if (const std::uint64_t known = out & ~octant.fresh; known != 0) removed.push_back({corner, known, false});
       octant.remove(out);
-      column->stale = true;
+      map.find(region->x, region->y)->stale = true;
     }
   }
   return rejected;

@@ -7,7 +7,6 @@
 #include <vector>
 
 #include "free_space.hpp"
-#include "ground.hpp"
 #include "scan_context.hpp"
 #include "scan_to_map.hpp"
 
@@ -17,13 +16,12 @@ namespace rhmap {
 /// scans saw through, and what belongs to these.
 class MovingHits {
  public:
-  /// `resolution`: edge of a cube [m].
   explicit MovingHits(const RemovalConfig& config) : config_(config) {}
 
   /// Takes the hits of what moves out of the regions. Cubes that the map had before are appended to `removed`. Returns
   /// the number of cubes taken out.
-  std::size_t reject(const RegionMap& map, const GroundEstimation& ground, const ScanTrace& trace,
-                     const FreeSpace& free_space, std::vector<RemovedCubesOf>& removed) const;
+  std::size_t reject(const RegionMap& map, const ScanTrace& trace, const FreeSpace& free_space,
+                     std::vector<RemovedCubesOf>& removed) const;
 
   /// A scan to look back at from now on.
   void remember(std::uint32_t scan, const ScanContext& context);

@@ -9,6 +9,7 @@ namespace rhmap {
 void Octant::remove(std::uint64_t cubes) {
   occupied &= ~cubes;
   ground &= ~cubes;
+  safe &= ~cubes;
   doubted &= ~cubes;
   firm &= ~cubes;
   forEachBit(cubes, [this](int bit) {

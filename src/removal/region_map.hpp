@@ -19,6 +19,7 @@ namespace rhmap {
 struct Octant {
   std::uint64_t occupied = 0;  ///< cubes that are in the map
   std::uint64_t ground = 0;    ///< of these, cubes of the ground
+  std::uint64_t safe = 0;      ///< of these, cubes so near to its plane that they stay whatever happens
   std::uint64_t doubted = 0;   ///< of these, cubes that have been seen through since their last hit
   std::uint64_t firm = 0;      ///< of these, cubes that many scans have hit
   // Of scan Region::scan:
@@ -51,6 +52,8 @@ struct Region {
   std::uint32_t scan = 0;        ///< the last scan that hit it
   std::uint16_t at_fit = 0;      ///< cubes at the last try to fit a plane
   bool fitted = false;           ///< `plane` is the ground's
+  bool loose = true;             ///< there may be cubes that are not safe
+  bool doubtful = false;         ///< there may be cubes that are doubted
   Plane plane;
   std::vector<Octant> octants;  ///< in Morton order
 

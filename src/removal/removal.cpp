@@ -81,14 +81,14 @@ ScanReport RhMap::Removal::process(const octomap::Pointcloud& points, const octo
   RemovalResult result;
   if (insert && config_.free_space.enabled) {
     free_space_.observe(regions_, trace, context.view.origin());
-    report.rejected = moving_hits_.reject(regions_, ground_, trace, free_space_, result.removed);
+    report.rejected = moving_hits_.reject(regions_, trace, free_space_, result.removed);
     moving_hits_.remember(scan_, context);
   }
   clock.charge(Stage::kFreeSpace);
 
   // S2M-R. Sec. III-C.2
   removeByScan(
-      regions_, ground_, context, config_, resolution_,
+      regions_, context, config_, resolution_,
       {.protect_scan = config_.protect_hits ? scan_ : 0, .revert_hits = 0, .everywhere = config_.evidence.everywhere},
       result);
   clock.charge(Stage::kRemoval);
@@ -132,7 +132,7 @@ ScanContext RhMap::Removal::contextOf(const octomap::pose6d& pose, ScanTrace& tr
 
 void RhMap::Removal::lookAgain(const ScanContext& keyframe, std::uint32_t protect_scan, ScanReport& report) {
   RemovalResult result;
-  removeByScan(regions_, ground_, keyframe, config_, resolution_,
+  removeByScan(regions_, keyframe, config_, resolution_,
                {.protect_scan = config_.protect_hits ? protect_scan : 0,
                 .revert_hits = config_.back_end.revert_hits,
                 .everywhere = false},
@@ -143,37 +143,9 @@ void RhMap::Removal::lookAgain(const ScanContext& keyframe, std::uint32_t protec
 /// The hit cubes that are in the map, into the tree: as OctoMap's updateNode for each. Returns how many there are.
 std::size_t RhMap::Removal::write(const ScanTrace& trace, const octomap::Pointcloud& points,
                                   const octomap::pose6d& pose) {
+  ScanMasks cells;
+  if (config_.carve) markFree(points, pose, cells);
   std::size_t inserted = 0;
-  ScanMasks masks;
-  if (config_.carve) {
-    octomap::Pointcloud world(points);
-    world.transform(pose);
-    ScanCounts counts;
-    masks = markScan(tree_.keySpace(), world, pose.trans(), {.max_range = config_.max_range}, counts);
-  }
-  const auto write = [&](const RegionMasks& region) {
-    if (!tree_.use_change_detection) {
-      ScanApplier<OcTreeNode>(*tree_.store_, tree_.sensorModel(), false).apply(region);
-      return;
-    }
-    for (std::uint64_t t = 0; t < 8; ++t) {
-      const OcTreeKey corner = cell_word::toKey(region.region << 9 | t << 6);
-      forEachBit(region.free[t] & ~region.hit[t], [&](int bit) { tree_.updateNode(cubeOf(corner, bit), false); });
-      forEachBit(region.hit[t], [&](int bit) { tree_.updateNode(cubeOf(corner, bit), true); });
-    }
-  };
-  masks.forEachRegion([&](const RegionMasks& marked) {
-    RegionMasks free{marked.region, marked.free, {}};
-    bool any = false;
-    for (std::uint64_t t = 0; t < 8; ++t) {
-      const OcTreeKey corner = cell_word::toKey(marked.region << 9 | t << 6);
-      free.free[t] &= ~marked.hit[t];  // an end that was kept out of the map is not free for that
-      if (const Region* region = regions_.regionOf(corner))
-        free.free[t] &= ~region->octants[regions_.octantOf(corner)].occupied;
-      any = any || free.free[t] != 0;
-    }
-    if (any) write(free);
-  });
   const std::size_t octants = std::min<std::size_t>(8, regions_.octants());
   for (const Region* region : trace.regions) {
     for (std::size_t first = 0; first < region->octants.size(); first += octants) {
@@ -182,15 +154,41 @@ std::size_t RhMap::Removal::write(const ScanTrace& trace, const octomap::Pointcl
       std::size_t cubes = 0;
       for (std::size_t o = 0; o < octants; ++o) {
         const Octant& octant = region->octants[first + o];
-        std::uint64_t& hit = hits.hit[(word >> 6 & 7) + o];
-        hit = octant.hit & octant.occupied;
+        const std::uint64_t hit = octant.hit & octant.occupied;
+        hits.hit[(word >> 6 & 7) + o] = hit;
         cubes += static_cast<std::size_t>(std::popcount(hit));
       }
-      if (cubes > 0) write(hits);
+      if (cubes > 0) cells.mark(hits);
       inserted += cubes;
     }
   }
+  if (tree_.use_change_detection) {
+    cells.forEachCell([this](const OcTreeKey& cell, bool occupied) { tree_.updateNode(cell, occupied); });
+  } else {
+    ScanApplier<OcTreeNode> applier(*tree_.store_, tree_.sensorModel(), false);
+    cells.forEachRegion([&](const RegionMasks& region) { applier.apply(region); });
+  }
   return inserted;
+}
+
+/// What OctoMap's rays cross, except cubes that the map holds for occupied, and ends that were kept out of it.
+void RhMap::Removal::markFree(const octomap::Pointcloud& points, const octomap::pose6d& pose, ScanMasks& cells) const {
+  octomap::Pointcloud world(points);
+  world.transform(pose);
+  ScanCounts counts;
+  const ScanMasks crossed =
+      markScan(tree_.keySpace(), world, pose.trans(),
+               {.max_range = config_.max_range, .box = nullptr, .num_threads = tree_.getNumThreads()}, counts);
+  crossed.forEachRegion([&](const RegionMasks& marked) {
+    RegionMasks free{marked.region, marked.free, {}};
+    for (std::uint64_t t = 0; t < 8; ++t) {
+      const OcTreeKey corner = cell_word::toKey(marked.region << 9 | t << 6);
+      const Region* region = regions_.regionOf(corner);
+      free.free[t] &= ~marked.hit[t];
+      if (region != nullptr) free.free[t] &= ~region->octants[regions_.octantOf(corner)].occupied;
+    }
+    cells.mark(free);
+  });
 }
 
 void RhMap::Removal::erase(const RemovalResult& result, ScanReport& report) {

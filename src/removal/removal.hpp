@@ -9,6 +9,7 @@
 #include "moving_hits.hpp"
 #include "range_image.hpp"
 #include "region_map.hpp"
+#include "rhmap/octree/scan_masks.hpp"
 #include "rhmap/removal/rh_map.hpp"
 #include "scan_context.hpp"
 #include "scan_points.hpp"
@@ -34,6 +35,7 @@ class RhMap::Removal {
                         const RangeImage& image) const;
   void lookAgain(const ScanContext& keyframe, std::uint32_t protect_scan, ScanReport& report);
   std::size_t write(const ScanTrace& trace, const octomap::Pointcloud& points, const octomap::pose6d& pose);
+  void markFree(const octomap::Pointcloud& points, const octomap::pose6d& pose, ScanMasks& cells) const;
   void erase(const RemovalResult& result, ScanReport& report);
   void forgetFar(const OcTreeKey& sensor);
 

@@ -21,15 +21,9 @@ struct Doubt {
 /// One scan's look at the map: first at all that may have gone, then, with all doubts known, at what stands around.
 class ScanToMapRemoval {
  public:
-  ScanToMapRemoval(const RegionMap& map, const GroundEstimation& ground, const ScanContext& scan,
-                   const RemovalConfig& config, double resolution, const LookConfig& look, RemovalResult& result)
-      : map_(map),
-        ground_(ground),
-        scan_(scan),
-        config_(config),
-        resolution_(resolution),
-        look_(look),
-        result_(result) {}
+  ScanToMapRemoval(const RegionMap& map, const ScanContext& scan, const RemovalConfig& config, double resolution,
+                   const LookConfig& look, RemovalResult& result)
+      : map_(map), scan_(scan), config_(config), resolution_(resolution), look_(look), result_(result) {}
 
   void run() {
     std::vector<const Column*> candidates;
@@ -98,36 +92,34 @@ class ScanToMapRemoval {
 
   void lookAt(Column& column, Region& region, int misses) {
     const bool is_candidate = misses == 1;
+    if (!is_candidate && (!region.loose || (!region.doubtful && isHidden(region)))) return;
+    bool doubtful = false;
     for (std::size_t o = 0; o < region.octants.size(); ++o) {
       Octant& octant = region.octants[o];
-      if (octant.occupied == 0) continue;
-      std::uint64_t cubes = octant.occupied;
-      if (look_.protect_scan != 0 && region.scan == look_.protect_scan) cubes &= ~octant.hit;
-      if (cubes == 0) continue;
-      const OcTreeKey corner = map_.cornerOf(region, o);
-      if (octant.doubted == 0 && isHidden(corner)) {
-        if (is_candidate) result_.is_protected += static_cast<std::size_t>(std::popcount(octant.occupied));
-        continue;
-      }
-      const std::uint64_t ground = cubes & octant.ground;
-      cubes &= ~octant.ground;
+      std::uint64_t cubes = octant.occupied & ~octant.safe;
       // With nothing but the ratio to go by, all that is near the ground has to stay.
-      if (scan_.visibility != nullptr) cubes |= aboveGround(column, region, o, ground);
-      const std::uint64_t through = lookThrough(octant, corner, cubes);
+      if (scan_.visibility == nullptr) cubes &= ~octant.ground;
+      if (look_.protect_scan != 0 && region.scan == look_.protect_scan) cubes &= ~octant.hit;
+      std::uint64_t through = 0;
+      if (cubes != 0 && (octant.doubted != 0 || !isHidden(map_.cornerOf(region, o), 4))) {
+        through = lookThrough(octant, map_.cornerOf(region, o), cubes);
+        if (through != 0) doubts_.push_back({&column, &region, o, through, misses});
+      }
       if (is_candidate) result_.is_protected += static_cast<std::size_t>(std::popcount(octant.occupied & ~through));
-      if (through != 0) doubts_.push_back({&column, &region, o, through, misses});
+      doubtful = doubtful || octant.doubted != 0;
     }
+    region.doubtful = doubtful;
   }
 
-  bool isHidden(const OcTreeKey& corner) const {
+  bool isHidden(const Region& region) const { return isHidden(map_.cornerOf(region, 0), map_.size()); }
+
+  /// Whether the scan can see through none of so many cubes an axis from a corner on.
+  bool isHidden(const OcTreeKey& corner, int size) const {
     if (scan_.visibility == nullptr) return false;
-    const auto centre = scan_.view(static_cast<float>(corner[0]) + 1.5F, static_cast<float>(corner[1]) + 1.5F,
-                                   static_cast<float>(corner[2]) + 1.5F);
-    return scan_.visibility->hides(centre, 2 * 1.7321F * static_cast<float>(resolution_));
-  }
-
-  std::uint64_t aboveGround(const Column& column, const Region& region, std::size_t o, std::uint64_t ground) const {
-    return ground_.aboveThin(map_, column, region, o, ground);
+    const float half = static_cast<float>(size - 1) / 2;
+    const auto centre = scan_.view(static_cast<float>(corner[0]) + half, static_cast<float>(corner[1]) + half,
+                                   static_cast<float>(corner[2]) + half);
+    return scan_.visibility->hides(centre, 0.8661F * static_cast<float>(size * resolution_));
   }
 
   /// The cubes that the scan sees through; notes it, and where it sees something at a cube's place, takes back the
@@ -182,7 +174,6 @@ class ScanToMapRemoval {
   }
 
   const RegionMap& map_;
-  const GroundEstimation& ground_;
   const ScanContext& scan_;
   const RemovalConfig& config_;
   double resolution_;
@@ -193,9 +184,9 @@ class ScanToMapRemoval {
 
 }  // namespace
 
-void removeByScan(const RegionMap& map, const GroundEstimation& ground, const ScanContext& scan,
-                  const RemovalConfig& config, double resolution, const LookConfig& look, RemovalResult& result) {
-  ScanToMapRemoval(map, ground, scan, config, resolution, look, result).run();
+void removeByScan(const RegionMap& map, const ScanContext& scan, const RemovalConfig& config, double resolution,
+                  const LookConfig& look, RemovalResult& result) {
+  ScanToMapRemoval(map, scan, config, resolution, look, result).run();
 }
 
 }  // namespace rhmap

@@ -4,7 +4,6 @@
 #include <cstdint>
 #include <vector>
 
-#include "ground.hpp"
 #include "region_map.hpp"
 #include "rhmap/removal/removal_config.hpp"
 #include "scan_context.hpp"
@@ -31,7 +30,7 @@ struct LookConfig {
 };
 
 /// S2M-R (Sec. III-C.2): takes from the regions what the scan shows to have gone.
-void removeByScan(const RegionMap& map, const GroundEstimation& ground, const ScanContext& scan,
-                  const RemovalConfig& config, double resolution, const LookConfig& look, RemovalResult& result);
+void removeByScan(const RegionMap& map, const ScanContext& scan, const RemovalConfig& config, double resolution,
+                  const LookConfig& look, RemovalResult& result);
 
 }  // namespace rhmap

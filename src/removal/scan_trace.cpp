@@ -10,6 +10,7 @@ namespace {
 /// The first hit of this scan in a region.
 void touch(Region& region, ScanTrace& trace) {
   region.scan = trace.scan;
+  region.loose = true;
   for (Octant& octant : region.octants) octant.hit = octant.fresh = octant.appeared = 0;
   trace.regions.push_back(&region);
 }

@@ -64,42 +64,62 @@ Visibility::Visibility(const RangeImage& image, const ScanPoints& scan, const Vi
     windows_.push_back({pixels(angle * rows), pixels(angle * columns)});
   }
 
-  // The farthest of a block, then of the blocks around.
-  const int block_rows = (projection_.rows + kBlock - 1) / kBlock;
-  block_columns_ = (projection_.columns + kBlock - 1) / kBlock;
-  std::vector<float> own(static_cast<std::size_t>(block_rows * block_columns_), 0.0F);
+  // The farthest of each block, then of blocks twice as large.
+  const auto blocks = [](int pixels, int block) { return (pixels + block - 1) / block; };
+  Farthest own{
+      kSmallestBlock, blocks(projection_.rows, kSmallestBlock), blocks(projection_.columns, kSmallestBlock), {}};
+  own.ranges.assign(static_cast<std::size_t>(own.rows * own.columns), 0.0F);
   for (int i = 0; i < projection_.rows; ++i) {
-    for (int j = 0; j < projection_.columns; ++j) {
-      const float range = ranges_[static_cast<std::size_t>(i * projection_.columns + j)];
-      float& farthest = own[static_cast<std::size_t>(i / kBlock * block_columns_ + j / kBlock)];
-      farthest = range < RangeImage::kEmpty && range > farthest ? range : farthest;
-    }
+    const float* from = &ranges_[static_cast<std::size_t>(i * projection_.columns)];
+    float* to = &own.ranges[static_cast<std::size_t>(i / kSmallestBlock * own.columns)];
+    for (int j = 0; j < projection_.columns; ++j)
+      to[j / kSmallestBlock] = std::max(to[j / kSmallestBlock], from[j] < RangeImage::kEmpty ? from[j] : 0.0F);
   }
-  farthest_ = own;
-  for (int i = 0; i < block_rows; ++i) {
-    for (int j = 0; j < block_columns_; ++j) {
-      float& farthest = farthest_[static_cast<std::size_t>(i * block_columns_ + j)];
-      for (int di = -1; di <= 1; ++di) {
-        for (int dj = -1; dj <= 1; ++dj) {
-          if (i + di < 0 || i + di >= block_rows) continue;
-          const int beside = (j + dj + block_columns_) % block_columns_;
-          farthest = std::max(farthest, own[static_cast<std::size_t>((i + di) * block_columns_ + beside)]);
-        }
+  while (own.rows > 2) {
+    summarise(own);
+    Farthest larger{2 * own.block, blocks(own.rows, 2), blocks(own.columns, 2), {}};
+    larger.ranges.assign(static_cast<std::size_t>(larger.rows * larger.columns), 0.0F);
+    for (int i = 0; i < own.rows; ++i) {
+      for (int j = 0; j < own.columns; ++j) {
+        float& to = larger.ranges[static_cast<std::size_t>(i / 2 * larger.columns + j / 2)];
+        to = std::max(to, own.ranges[static_cast<std::size_t>(i * own.columns + j)]);
+      }
+    }
+    own = std::move(larger);
+  }
+}
+
+/// Keeps for each block the farthest of it and of those around.
+void Visibility::summarise(const Farthest& own) {
+  Farthest around = own;
+  for (int i = 0; i < own.rows; ++i) {
+    for (int j = 0; j < own.columns; ++j) {
+      float& farthest = around.ranges[static_cast<std::size_t>(i * own.columns + j)];
+      for (int di = std::max(-1, -i); di <= std::min(1, own.rows - 1 - i); ++di) {
+        const float* row = &own.ranges[static_cast<std::size_t>((i + di) * own.columns)];
+        farthest =
+            std::max({farthest, row[j == 0 ? own.columns - 1 : j - 1], row[j], row[j + 1 == own.columns ? 0 : j + 1]});
       }
     }
   }
+  farthest_.push_back(std::move(around));
 }
 
 bool Visibility::hides(const std::array<float, 3>& p, float radius) const {
   const float range = std::sqrt(p[0] * p[0] + p[1] * p[1] + p[2] * p[2]);
-  // The blocks around reach at least a block's width to all sides: too little for what is near.
+  // The blocks around reach at least a block's width to all sides; a window of pixels comes on top.
   const float level = std::max(std::sqrt(p[0] * p[0] + p[1] * p[1]), 1e-3F);
-  const float reach = 1.1F * radius / level *
-                      std::max(projection_.rowsPerRadian(), static_cast<float>(projection_.columns) / (2 * kPi));
-  if (reach + 1 > kBlock) return false;
-  const float row = std::clamp(projection_.rowOf(p[0], p[1], p[2]), 0.0F, static_cast<float>(projection_.rows - 1));
-  const int block = static_cast<int>(row) / kBlock * block_columns_ + projection_.columnOf(p[0], p[1]) / kBlock;
-  return farthest_[static_cast<std::size_t>(block)] <= range - radius + behind_;
+  const float pixels_per_radian =
+      std::max(projection_.rowsPerRadian(), static_cast<float>(projection_.columns) / (2 * kPi));
+  const float reach = 1.1F * radius / level * pixels_per_radian + 1;
+  for (const Farthest& farthest : farthest_) {
+    if (static_cast<float>(farthest.block) < reach) continue;
+    const float row = std::clamp(projection_.rowOf(p[0], p[1], p[2]), 0.0F, static_cast<float>(projection_.rows - 1));
+    const int block =
+        static_cast<int>(row) / farthest.block * farthest.columns + projection_.columnOf(p[0], p[1]) / farthest.block;
+    return farthest.ranges[static_cast<std::size_t>(block)] <= range - radius + behind_;
+  }
+  return false;
 }
 
 Look Visibility::around(const std::array<float, 3>& p, float range, int row, int column) const {

@@ -69,14 +69,19 @@ class Visibility {
   Look around(const std::array<float, 3>& p, float range, int row, int column) const;
 
   static constexpr float kStepsPerMetre = 4;
-  static constexpr int kBlock = 4;  // pixels of an edge of what farthest_ sums up
+  static constexpr int kSmallestBlock = 4;  // pixels of an edge
+  /// The farthest range in blocks of pixels and those around them; 0 where all are empty.
+  struct Farthest {
+    int block, rows, columns;
+    std::vector<float> ranges;
+  };
+  void summarise(const Farthest& own);
 
   Projection projection_;
   std::vector<float> ranges_;
   std::vector<std::array<float, 3>> points_;  // sensor's frame [m]
-  std::vector<float> farthest_;               // of each block of pixels and those around it; 0 where all are empty
-  int block_columns_ = 0;
-  std::vector<Window> windows_;  // for cubes so many steps away; beyond: the last
+  std::vector<Farthest> farthest_;            // blocks of 4, 8, 16 ... pixels
+  std::vector<Window> windows_;               // for cubes so many steps away; beyond: the last
   float behind_, before_, surface_, surface_share_;
 };
 

@@ -89,15 +89,18 @@ class ScanMasks {
     at(word >> 9).hit[word >> 6 & 7] |= std::uint64_t{1} << (word & 63);
   }
 
+  /// Marks cells of a region.
+  void mark(const RegionMasks& cells) {
+    RegionMasks& to = at(cells.region);
+    for (std::size_t i = 0; i < 8; ++i) {
+      to.free[i] |= cells.free[i];
+      to.hit[i] |= cells.hit[i];
+    }
+  }
+
   /// Adds what another thread has marked.
   void merge(const ScanMasks& other) {
-    other.forEachRegion([this](const RegionMasks& from) {
-      RegionMasks& to = at(from.region);
-      for (std::size_t i = 0; i < 8; ++i) {
-        to.free[i] |= from.free[i];
-        to.hit[i] |= from.hit[i];
-      }
-    });
+    other.forEachRegion([this](const RegionMasks& cells) { mark(cells); });
   }
 
   /// Visits the regions in the order in which they were first marked.
