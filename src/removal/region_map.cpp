@@ -20,13 +20,14 @@ void Octant::remove(std::uint64_t cubes) {
 }
 
 RegionMap::~RegionMap() {
-  columns_.forEach([](Column& column) { delete &column; });
+  for (Column* column : in_order_) delete column;
 }
 
 Column& RegionMap::getOrCreate(key_type x, key_type y) {
   if (Column* known = find(x, y)) return *known;
   auto* column = new Column{.x = x, .y = y, .regions = {}};
   columns_.insert(nameOf(x, y), column);
+  in_order_.push_back(column);
   for (const Cubes& cubes : read_(static_cast<key_type>(x << bits_), static_cast<key_type>(y << bits_), size())) {
     Region& region = getOrCreate(*column, static_cast<key_type>(cubes.corner[2] >> bits_));
     region.octants[octantOf(cubes.corner)].occupied |= cubes.occupied;
@@ -74,16 +75,14 @@ void RegionMap::refreshHeights(Column& column) const {
 }
 
 void RegionMap::forgetBeyond(const OcTreeKey& centre, int distance) {
-  std::vector<Column*> far;
   const int half = size() / 2;
-  columns_.forEach([&](Column& column) {
-    const int dx = (column.x << bits_) + half - centre[0], dy = (column.y << bits_) + half - centre[1];
-    if (std::max(std::abs(dx), std::abs(dy)) > distance) far.push_back(&column);
-  });
-  for (Column* column : far) {
+  std::erase_if(in_order_, [&](Column* column) {
+    const int dx = (column->x << bits_) + half - centre[0], dy = (column->y << bits_) + half - centre[1];
+    if (std::max(std::abs(dx), std::abs(dy)) <= distance) return false;
     columns_.erase(nameOf(column->x, column->y));
     delete column;
-  }
+    return true;
+  });
 }
 
 std::size_t RegionMap::memoryUsage() const {
