@@ -18,6 +18,12 @@ class CellGrid {
         side_(side),
         words_(static_cast<std::size_t>(side) * static_cast<std::size_t>(side), 0) {}
 
+  /// Another window, all clear.
+  void reset(int x0, int y0, int z0, int side) {
+    x0_ = x0, y0_ = y0, z0_ = z0, side_ = side;
+    words_.assign(static_cast<std::size_t>(side) * static_cast<std::size_t>(side), 0);
+  }
+
   int x0() const { return x0_; }
   int y0() const { return y0_; }
   int z0() const { return z0_; }

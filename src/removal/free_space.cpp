@@ -88,7 +88,7 @@ void FreeSpace::observe(const RegionMap& map, const ScanTrace& trace, const std:
   const int radius = static_cast<int>(std::ceil(config_.max_range / (cube_ * (1 << shift_)))) + 2;
   const int x0 = (cell[0] - radius) & ~7, y0 = (cell[1] - radius) & ~7, z0 = (cell[2] - kBelow) & ~7;
   const int side = (2 * radius + 15) & ~7;
-  hit_ = crossed_ = voids_ = CellGrid(x0, y0, z0, side);
+  for (CellGrid* grid : {&hit_, &crossed_, &voids_}) grid->reset(x0, y0, z0, side);
 
   std::vector<Ray> rays;
   markHits(map, trace, from, rays);
@@ -165,6 +165,7 @@ void FreeSpace::follow(const std::array<float, 3>& from, const Ray& ray) {
 /// What has come to stay: a void cell that is hit again and again, and no ray crosses any more, is void no longer, nor
 /// are those around it.
 void FreeSpace::revert(const RegionMap& map, const ScanTrace& trace) {
+  Tile* last = nullptr;  // cells come in clusters
   for (Region* region : trace.regions) {
     for (std::size_t o = 0; o < region->octants.size(); ++o) {
       Octant& octant = region->octants[o];
@@ -174,7 +175,8 @@ void FreeSpace::revert(const RegionMap& map, const ScanTrace& trace) {
                     const int wx = x - voids_.x0(), wy = y - voids_.y0();
                     if (wx < 1 || wy < 1 || wx + 1 >= voids_.side() || wy + 1 >= voids_.side() || z < 0 || z >= 64)
                       return;
-                    const CellColumn& column = tileAt(x >> 3, y >> 3).at(x, y);
+                    if (last == nullptr || last->x != x >> 3 || last->y != y >> 3) last = &tileAt(x >> 3, y >> 3);
+                    const CellColumn& column = last->at(x, y);
                     std::uint8_t& in_a_row = octant.hits_in_a_row[number];
                     if (atLeast(column.crossed, 1) >> z & 1) in_a_row = 0;
                     countUp(in_a_row);

@@ -89,7 +89,7 @@ ScanReport RhMap::Removal::process(const octomap::Pointcloud& points, const octo
   // S2M-R. Sec. III-C.2
   removeByScan(
       regions_, context, config_, resolution_,
-      {.protect_scan = config_.protect_hits ? scan_ : 0, .revert_hits = 0, .everywhere = config_.evidence.everywhere},
+      {.scan = scan_, .protect = config_.protect_hits, .revert_hits = 0, .everywhere = config_.evidence.everywhere},
       result);
   clock.charge(Stage::kRemoval);
 
@@ -102,7 +102,7 @@ ScanReport RhMap::Removal::process(const octomap::Pointcloud& points, const octo
     const std::array<float, 3> position{pose.trans().x(), pose.trans().y(), pose.trans().z()};
     report.keyframe = keyframes_.wants(position, scan_, informationContent(image, config_.context.max_range));
     if (report.keyframe) keyframes_.push(position, std::move(context));
-    if (const auto keyframe = keyframes_.pop(position)) lookAgain(*keyframe, scan_, report);
+    if (const auto keyframe = keyframes_.pop(position)) lookAgain(*keyframe, true, report);
   }
   clock.charge(Stage::kBackEnd);
   return report;
@@ -111,7 +111,7 @@ ScanReport RhMap::Removal::process(const octomap::Pointcloud& points, const octo
 ScanReport RhMap::Removal::finish() {
   ScanReport report;
   StageClock clock(report);
-  while (const auto keyframe = keyframes_.pop()) lookAgain(*keyframe, 0, report);
+  while (const auto keyframe = keyframes_.pop()) lookAgain(*keyframe, false, report);
   clock.charge(Stage::kBackEnd);
   return report;
 }
@@ -130,10 +130,11 @@ ScanContext RhMap::Removal::contextOf(const octomap::pose6d& pose, ScanTrace& tr
   return {contextsOf(trace), std::move(regions), SensorView(tree_.keySpace(), pose), std::move(visibility)};
 }
 
-void RhMap::Removal::lookAgain(const ScanContext& keyframe, std::uint32_t protect_scan, ScanReport& report) {
+void RhMap::Removal::lookAgain(const ScanContext& keyframe, bool protect, ScanReport& report) {
   RemovalResult result;
   removeByScan(regions_, keyframe, config_, resolution_,
-               {.protect_scan = config_.protect_hits ? protect_scan : 0,
+               {.scan = scan_,
+                .protect = protect && config_.protect_hits,
                 .revert_hits = config_.back_end.revert_hits,
                 .everywhere = false},
                result);

@@ -33,7 +33,7 @@ class RhMap::Removal {
  private:
   ScanContext contextOf(const octomap::pose6d& pose, ScanTrace& trace, const OcTreeKey& sensor,
                         const RangeImage& image) const;
-  void lookAgain(const ScanContext& keyframe, std::uint32_t protect_scan, ScanReport& report);
+  void lookAgain(const ScanContext& keyframe, bool protect, ScanReport& report);
   std::size_t write(const ScanTrace& trace, const octomap::Pointcloud& points, const octomap::pose6d& pose);
   void markFree(const octomap::Pointcloud& points, const octomap::pose6d& pose, ScanMasks& cells) const;
   void erase(const RemovalResult& result, ScanReport& report);

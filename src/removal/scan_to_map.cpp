@@ -81,10 +81,12 @@ class ScanToMapRemoval {
     std::sort(candidates.begin(), candidates.end());
     const auto reach = static_cast<float>(config_.context.max_range / resolution_);
     const auto& sensor = scan_.view.origin();
+    const auto interval = static_cast<std::uint32_t>(config_.evidence.interval);
     map_.forEachColumn([&](Column& column) {
       const float dx = static_cast<float>(column.x << map_.bits()) - sensor[0];
       const float dy = static_cast<float>(column.y << map_.bits()) - sensor[1];
       if (dx * dx + dy * dy > reach * reach) return;
+      if ((column.x + column.y + look_.scan) % interval != 0) return;
       if (std::binary_search(candidates.begin(), candidates.end(), &column)) return;
       for (const auto& region : column.regions) lookAt(column, *region, config_.evidence.misses);
     });
@@ -99,7 +101,7 @@ class ScanToMapRemoval {
       std::uint64_t cubes = octant.occupied & ~octant.safe;
       // With nothing but the ratio to go by, all that is near the ground has to stay.
       if (scan_.visibility == nullptr) cubes &= ~octant.ground;
-      if (look_.protect_scan != 0 && region.scan == look_.protect_scan) cubes &= ~octant.hit;
+      if (look_.protect && region.scan == look_.scan) cubes &= ~octant.hit;
       std::uint64_t through = 0;
       if (cubes != 0 && (octant.doubted != 0 || !isHidden(map_.cornerOf(region, o), 4))) {
         through = lookThrough(octant, map_.cornerOf(region, o), cubes);

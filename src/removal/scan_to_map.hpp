@@ -24,9 +24,10 @@ struct RemovalResult {
 
 /// Whose look it is.
 struct LookConfig {
-  std::uint32_t protect_scan = 0;  ///< cubes that this scan has hit are not touched; 0: none
-  int revert_hits = 0;             ///< nor are cubes that so many scans have hit; 0: any number
-  bool everywhere = false;         ///< cubes beside those of candidates by ratio are looked at, too
+  std::uint32_t scan = 0;   ///< the last scan that was traced
+  bool protect = true;      ///< cubes that it has hit are not touched
+  int revert_hits = 0;      ///< nor are cubes that so many scans have hit; 0: any number
+  bool everywhere = false;  ///< cubes beside those of candidates by ratio are looked at, too
 };
 
 /// S2M-R (Sec. III-C.2): takes from the regions what the scan shows to have gone.

@@ -56,9 +56,10 @@ struct VisibilityConfig {
 /// When a cube goes that scans have seen through.
 struct EvidenceConfig {
   bool everywhere = true;   ///< all cubes in sight are looked at, not only those of candidates by ratio
-  int misses = 3;           ///< scans in a row that must have seen through a cube; a candidate's goes at once
+  int interval = 2;         ///< each of these in one of so many scans
+  int misses = 2;           ///< looks in a row that must have seen through a cube; a candidate's goes at the first
   double share = 0.85;      ///< of the cubes around, doubted and firm ones, so many must be doubted
-  int sure_misses = 10;     ///< after so many scans in a row
+  int sure_misses = 6;      ///< after so many looks in a row
   double sure_share = 0.7;  ///< a smaller share will do
   int firm = 3;             ///< scans that have hit a cube that speaks for those around it
 };
