@@ -64,7 +64,7 @@ std::optional<PointRay> rayOf(const KeySpace& keys, const point3d& p, const poin
 class Marker {
  public:
   Marker(const KeySpace& keys, const point3d& origin, const ScanMarkingConfig& config, ScanMasks masks)
-      : keys_(keys), origin_(origin), config_(config), batch_(std::make_unique<RayBatch>()), masks_(std::move(masks)) {}
+      : keys_(keys), origin_(origin), config_(config), batch_(std::make_unique_for_overwrite<RayBatch>()), masks_(std::move(masks)) {}
 
   void add(const point3d& p) {
     ++counts_.points;
