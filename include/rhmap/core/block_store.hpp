@@ -7,12 +7,14 @@
 #include <new>
 #include <type_traits>
 #include <utility>
+#include <vector>
 
 #include "rhmap/core/block.hpp"
 #include "rhmap/core/block_index.hpp"
 #include "rhmap/core/block_journal.hpp"
 #include "rhmap/core/block_pool.hpp"
 #include "rhmap/core/octet_pool.hpp"
+#include "rhmap/core/region_editor.hpp"
 #include "rhmap/core/trunk.hpp"
 
 namespace rhmap {
@@ -213,6 +215,21 @@ class BlockStore {
     const int number = below ? kTopOctet : childOctet(r.slot);
     createNodes(block, number, bits);
     return {block, number};
+  }
+
+  /// Makes the block below a childless cell of an upper block; the caller makes nodes in it at once.
+  Block* createBlockBelow(NodeRef cell) { return createBlock(cell.corner(), cell.block->level + 1, cell.block); }
+
+  /// Editors for as many threads, which will work on no more than `regions` regions.
+  std::vector<RegionEditor<NODE>> editors(std::size_t threads, std::size_t regions) {
+    std::vector<RegionEditor<NODE>> editors;
+    for (auto& source : nodes_.reserve(threads, regions * kOctets)) editors.emplace_back(nodes_, source);
+    return editors;
+  }
+  /// Takes over what editors have done; the caller calls touch() for the regions that they have changed.
+  void takeOver(const std::vector<RegionEditor<NODE>>& editors) {
+    for (const RegionEditor<NODE>& editor : editors) size_ += static_cast<std::size_t>(editor.made());
+    ++version_;
   }
 
   /// Removes a node without children.

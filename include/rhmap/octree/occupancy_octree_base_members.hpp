@@ -32,8 +32,7 @@ void OccupancyOcTreeBase<NODE>::insertPointCloud(const Pointcloud& scan, const p
     marks.forEachCell([&](const OcTreeKey& key, bool occupied) { updateNode(key, occupied, lazy_eval); });
     return;
   }
-  ScanApplier<NODE> applier(*this->store_, sensorModel(), lazy_eval);
-  marks.forEachRegion([&](const RegionMasks& region) { applier.apply(region); });
+  ScanApplier<NODE>(*this->store_, sensorModel(), lazy_eval).apply(marks, num_threads_);
 }
 
 template <class NODE>

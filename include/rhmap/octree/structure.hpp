@@ -76,14 +76,17 @@ inline constexpr bool kOctomapsInnerValue = requires(NODE node, Octet<NODE> chil
 
 /// Recomputes an inner node from its children, by the rule of its class, if it has one.
 template <class NODE>
+void recompute(NODE& node, const Octet<NODE>& children) {
+  if constexpr (kOctomapsInnerValue<NODE>) {
+    node.updateOccupancyChildren(children);
+  } else if constexpr (requires { node.updateOccupancyChildren(); }) {
+    node.updateOccupancyChildren();
+  }
+}
+template <class NODE>
 void recompute(BlockStore<NODE>& store, NodeRef at, const Octet<NODE>& children) {
   store.touch(at.block);
-  NODE* node = store.node(at);
-  if constexpr (kOctomapsInnerValue<NODE>) {
-    node->updateOccupancyChildren(children);
-  } else if constexpr (requires { node->updateOccupancyChildren(); }) {
-    node->updateOccupancyChildren();
-  }
+  recompute(*store.node(at), children);
 }
 
 /// Recomputes a node from its children, of which `child` is one.
