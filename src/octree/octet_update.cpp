@@ -47,7 +47,7 @@ HWY_INLINE void updateOctet(OctetUpdate<OcTreeNode>& o, const SensorModel& model
                   hn::And(update <= 0 ? always : never, hn::Le(value, low)));
   };
 
-  HWY_ALIGN float present[8];  // the values, and less than any where there is none
+  HWY_ALIGN float present[8];  // the values, and the least where there is none or NaN
   unsigned changed = 0;
   bool uniform = true;
   VF first = hn::Zero(f);
@@ -62,16 +62,16 @@ HWY_INLINE void updateOctet(OctetUpdate<OcTreeNode>& o, const SensorModel& model
     const VF clamped = hn::IfThenElse(hn::Lt(sum, low), low, hn::IfThenElse(hn::Gt(sum, high), high, sum));
     const VF value = hn::IfThenElse(change, clamped, before);
     hn::StoreU(value, f, values + i);
-    hn::Store(hn::IfThenElse(lanesOf(o.after, i), value, hn::Set(f, -FLT_MAX)), f, present + i);
+    const VF least = hn::Set(f, -FLT_MAX);
+    hn::Store(hn::IfThenElse(hn::And(lanesOf(o.after, i), hn::Gt(value, least)), value, least), f, present + i);
     if (i == 0) first = hn::Set(f, hn::GetLane(value));
     uniform = uniform && hn::AllTrue(f, hn::Eq(value, first));
     changed |= bitsOf(change, i);
   }
   o.changed = static_cast<std::uint8_t>(changed);
   o.uniform = uniform && o.after == 0xff;
-  const auto value = [&present](int i) { return larger(-FLT_MAX, present[i]); };
-  o.max = larger(larger(larger(value(0), value(1)), larger(value(2), value(3))),
-                 larger(larger(value(4), value(5)), larger(value(6), value(7))));
+  o.max = larger(larger(larger(present[0], present[1]), larger(present[2], present[3])),
+                 larger(larger(present[4], present[5]), larger(present[6], present[7])));
 }
 
 void UpdateOctets(OctetUpdate<OcTreeNode>* octets, std::size_t count, const SensorModel& model) {

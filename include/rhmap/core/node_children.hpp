@@ -31,7 +31,7 @@ class NodeChildren {
 
 /// Slabs are the aligned pieces of memory that nodes live in. All of this size, so that any address inside one tells
 /// where it begins.
-inline constexpr std::size_t kSlabBytes = std::size_t{1} << 20;
+inline constexpr std::size_t kSlabBytes = std::size_t{1} << 21;
 
 /// What stands at the beginning of every slab.
 struct SlabHeader {

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <sys/mman.h>
 #include <algorithm>
 #include <bit>
 #include <cstddef>
@@ -154,6 +155,7 @@ class OctetPool {
 
   SlabHeader* newSlab(bool inner) {
     void* memory = ::operator new (kSlabBytes, std::align_val_t{kSlabBytes});
+    madvise(memory, kSlabBytes, 14);
     auto* slab = new (memory) SlabHeader{inner, store_, children_};
     try {
       addSlab(slab);

@@ -23,11 +23,18 @@ class RegionUpdate {
   RegionUpdate(RegionEditor<NODE>& editor, const SensorModel& model, bool lazy)
       : editor_(editor), model_(model), lazy_(lazy) {}
 
-  /// False if nothing changed.
-  bool apply(Block& region, const RegionMasks& masks) {
+  /// Makes what is missing above and around the marked cells, and asks for the cells' memory.
+  void begin(Block& region, const RegionMasks& masks) {
+    region_ = &region;
     count_ = 0;
     changed_ = {};
+    whole_ = 0;
     for (int top = 0; top < 8; ++top) enter(region, top, masks);
+  }
+
+  /// Updates the cells and what lies above them. False if nothing changed. Better some time after begin().
+  bool finish() {
+    Block& region = *region_;
     updateOctets(std::span(octets_.data(), count_), model_);
     for (std::size_t i = 0; i < count_; ++i)
       if (octets_[i].changed != 0) summarise(region, number_[i], octets_[i]);
@@ -37,7 +44,6 @@ class RegionUpdate {
       any = true;
       if (!lazy_) summarise(region, top);
     }
-    whole_ = 0;
     return any;
   }
 
@@ -74,39 +80,58 @@ class RegionUpdate {
       }
       if (!is_new) expand(region, middles, tops[top]);
     }
-    for (int i = 0; i < 8; ++i) {
-      const auto octet_hit = static_cast<std::uint8_t>(hit >> (8 * i));
-      const auto octet_free = static_cast<std::uint8_t>(free >> (8 * i));
-      if ((octet_hit | octet_free) != 0) enter(region, top, i, octet_hit, octet_free);
+    for (std::uint64_t rest = nonzeroBytes(hit | free); rest != 0; rest &= rest - 1) {
+      const int shift = std::countr_zero(rest) - 7;
+      const int octet = 8 * top + shift / 8;
+      const auto octet_hit = static_cast<std::uint8_t>(hit >> shift);
+      const auto octet_free = static_cast<std::uint8_t>(free >> shift);
+      const std::uint8_t existing = mask(region, octet);
+      if (existing != 0) {
+        const auto after = static_cast<std::uint8_t>(existing | octet_hit | octet_free);
+        note(octet, makeCells(region, octet, after, nullptr), octet_hit, octet_free, existing, after, 0);
+      } else {
+        enter(region, top, shift / 8, octet_hit, octet_free);
+      }
     }
   }
 
-  /// The same for middle node `i` of a top node.
+  /// The same for middle node `i` of a top node, which has no cells yet.
   void enter(Block& region, int top, int i, std::uint8_t hit, std::uint8_t free) {
     const int middles = kMiddleOctet + top;
     const int octet = 8 * top + i;
     const bool is_new = (mask(region, middles) >> i & 1) == 0;
     NODE* middle = (is_new ? editor_.create(region, middles, 1U << i) : editor_.nodes(region, middles)) + i;
-    const std::uint8_t existing = mask(region, octet);
-    float start = 0;
-    auto after = static_cast<std::uint8_t>(existing | hit | free);
-    if (existing == 0) {
-      const float value = middle->getLogOdds();
-      if (!is_new && !keepUnsettled(value, hit, free)) return;
-      float whole;
-      if (staysWhole(model_, lazy_, value, hit == 0xff, free == 0xff, whole)) {
-        middle->setLogOdds(whole);
-        changed_[static_cast<std::size_t>(top)] |= 1U << i;
-        return;
-      }
-      if (!is_new) {
-        start = value;
-        after = 0xff;
-      }
+    const float value = middle->getLogOdds();
+    if (!is_new && !keepUnsettled(value, hit, free)) return;
+    float whole;
+    if (staysWhole(model_, lazy_, value, hit == 0xff, free == 0xff, whole)) {
+      middle->setLogOdds(whole);
+      changed_[static_cast<std::size_t>(top)] |= 1U << i;
+    } else if (is_new) {
+      const auto after = static_cast<std::uint8_t>(hit | free);
+      note(octet, makeCells(region, octet, after, nullptr), hit, free, 0, after, 0);
+    } else {
+      note(octet, makeCells(region, octet, 0xff, middle), hit, free, 0, 0xff, value);
     }
+  }
+
+  void note(int octet, NODE* cells, std::uint8_t hit, std::uint8_t free, std::uint8_t existing, std::uint8_t after,
+            float start) {
+    __builtin_prefetch(cells, 1);
     number_[count_] = octet;
-    octets_[count_++] = {
-        makeCells(region, octet, after, is_new ? nullptr : middle), hit, free, existing, after, start, 0, false, 0};
+    OctetUpdate<NODE>& update = octets_[count_++];
+    update.cells = cells;
+    update.hit = hit;
+    update.free = free;
+    update.existing = existing;
+    update.after = after;
+    update.start = start;
+  }
+
+  /// Bit 7 of each byte that is not 0.
+  static std::uint64_t nonzeroBytes(std::uint64_t bytes) {
+    constexpr std::uint64_t kLow = 0x7f7f7f7f7f7f7f7f;
+    return (((bytes & kLow) + kLow) | bytes) & ~kLow;
   }
 
   /// All cells below a leaf have its value: drops the marks that would change nothing. False if none is left.
@@ -170,6 +195,7 @@ class RegionUpdate {
   RegionEditor<NODE>& editor_;
   SensorModel model_;
   bool lazy_;
+  Block* region_ = nullptr;
   unsigned whole_ = 0;               // top nodes that have changed and stayed leaves
   std::array<unsigned, 8> changed_;  // middle nodes that have, or that have cells that have
   std::size_t count_ = 0;

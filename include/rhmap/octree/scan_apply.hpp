@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cstddef>
 #include <cstdint>
+#include <span>
 #include <vector>
 
 #include "rhmap/octree/parallel.hpp"
@@ -27,19 +28,16 @@ class ScanApplier {
     masks.forEachRegion([this](const RegionMasks& marks) { open(marks); });
     const auto threads = static_cast<std::size_t>(std::max(num_threads, 1));
     auto editors = store_.editors(threads, regions_.size());
-    std::vector<RegionUpdate<NODE>> updates;
-    for (auto& editor : editors) updates.emplace_back(editor, model_, lazy_);
     forEachPart((regions_.size() + kPart - 1) / kPart, threads, [&](std::size_t part, std::size_t thread) {
-      const std::size_t end = std::min(regions_.size(), (part + 1) * kPart);
-      for (std::size_t i = part * kPart; i < end; ++i)
-        regions_[i].changed = updates[thread].apply(*regions_[i].block, *regions_[i].marks);
+      updatePart(std::span(regions_).subspan(part * kPart).first(std::min(kPart, regions_.size() - part * kPart)),
+                 editors[thread]);
     });
     store_.takeOver(editors);
     close();
   }
 
  private:
-  static constexpr std::size_t kPart = 64;  // regions that a thread takes at a time
+  static constexpr std::size_t kPart = 256;  // regions that a thread takes at a time
 
   struct Region {
     Block* block;
@@ -86,6 +84,19 @@ class ScanApplier {
     if (is_new) return store_.createBlockBelow(cell);
     structure::expand(store_, cell);
     return store_.findRegion(corner);
+  }
+
+  /// Updates the next region after the memory of the one after it was asked for.
+  void updatePart(std::span<Region> regions, RegionEditor<NODE>& editor) const {
+    RegionUpdate<NODE> update[] = {{editor, model_, lazy_}, {editor, model_, lazy_}};
+    for (std::size_t i = 0; i <= regions.size(); ++i) {
+      if (i + 2 < regions.size()) {
+        const char* block = reinterpret_cast<const char*>(regions[i + 2].block);
+        for (std::size_t line = 0; line < sizeof(Block); line += 64) __builtin_prefetch(block + line, 1);
+      }
+      if (i < regions.size()) update[i % 2].begin(*regions[i].block, *regions[i].marks);
+      if (i > 0) regions[i - 1].changed = update[1 - i % 2].finish();
+    }
   }
 
   /// Prunes or recomputes what lies above the changed regions.

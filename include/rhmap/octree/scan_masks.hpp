@@ -51,10 +51,10 @@ constexpr std::uint64_t advance(std::uint64_t word, std::uint64_t axis_mask, std
 }  // namespace cell_word
 
 /// What one scan says about the 512 cells of one region; bits in Morton order, one word an octant.
-struct RegionMasks {
-  std::uint64_t region;               ///< cell word >> 9
+struct alignas(64) RegionMasks {
   std::array<std::uint64_t, 8> free;  ///< crossed by a ray
   std::array<std::uint64_t, 8> hit;   ///< a ray ends here: wins over free
+  std::uint64_t region;               ///< cell word >> 9
 
   OcTreeKey corner() const { return cell_word::toKey(region << 9); }
 };
@@ -146,7 +146,7 @@ class ScanMasks {
       used_ = 0;
     }
     RegionMasks& fresh = chunks_.back()[used_++];
-    fresh = RegionMasks{region, {}, {}};
+    fresh = RegionMasks{{}, {}, region};
     return fresh;
   }
 
