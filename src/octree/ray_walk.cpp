@@ -6,6 +6,8 @@
 #include <hwy/foreach_target.h>  // compiles this file once for every instruction set
 #include <hwy/highway.h>
 
+#include "compress-inl.hpp"
+
 HWY_BEFORE_NAMESPACE();
 namespace rhmap::HWY_NAMESPACE {
 namespace hn = hwy::HWY_NAMESPACE;
@@ -19,15 +21,6 @@ using MU = hn::Mask<U>;
 
 constexpr std::size_t kMostLanes = HWY_MAX_BYTES / sizeof(double);
 static_assert(kMostLanes <= RayBatch::kPad);
-
-/// The chosen lanes side by side, from lane 0 on; the others hold anything.
-HWY_INLINE VU compress(VU v, MU which) {
-#if HWY_TARGET == HWY_AVX3 || HWY_TARGET == HWY_AVX3_DL
-  return VU{_mm512_maskz_compress_epi64(which.raw, v.raw)};  // Highway 1.0's is a look-up in a table
-#else
-  return hn::Compress(v, which);
-#endif
-}
 
 /// What the lanes have marked, each in one octant, on its way to the masks: any cell of the octant, and the bits of
 /// those that were crossed.
@@ -102,8 +95,8 @@ HWY_INLINE MU stepAll(Lanes& l, Marks& marks, std::size_t& size) {
   const MU moved = hn::Ne(hn::And(hn::Xor(next, l.cell), hn::Set(u, ~std::uint64_t{63})), hn::Zero(u));
   const MU left = hn::And(hn::Or(done, moved), l.busy);
 
-  hn::StoreU(compress(hn::Xor(l.cell, l.mirror), left), u, marks.cell + size);
-  hn::StoreU(compress(l.marked, left), u, marks.bits + size);
+  storeCompressed(u, hn::Xor(l.cell, l.mirror), left, marks.cell + size);
+  storeCompressed(u, l.marked, left, marks.bits + size);
   size += hn::CountTrue(u, left);
   l.marked = hn::Or(hn::IfThenZeroElse(left, l.marked), bitOf(hn::Xor(next, l.mirror)));
   l.cell = next;

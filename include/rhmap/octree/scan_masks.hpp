@@ -84,10 +84,8 @@ class ScanMasks {
     const std::uint64_t word = cell_word::fromKey(key);
     markFree(word >> 6, std::uint64_t{1} << (word & 63));
   }
-  void markHit(const OcTreeKey& key) {
-    const std::uint64_t word = cell_word::fromKey(key);
-    at(word >> 9).hit[word >> 6 & 7] |= std::uint64_t{1} << (word & 63);
-  }
+  void markHit(const OcTreeKey& key) { markHit(cell_word::fromKey(key)); }
+  void markHit(std::uint64_t cell) { at(cell >> 9).hit[cell >> 6 & 7] |= std::uint64_t{1} << (cell & 63); }
 
   /// Adds what another thread has marked.
   void merge(const ScanMasks& other) {
