@@ -10,19 +10,48 @@
 #include <hwy/highway.h>
 
 #include <cstddef>
+#include <cstdint>
 
 HWY_BEFORE_NAMESPACE();
 namespace rhmap::HWY_NAMESPACE {
+
+#if HWY_TARGET == HWY_AVX2
+/// For each set of four lanes: its 32-bit halves side by side.
+alignas(32) inline constexpr std::uint32_t kHalvesOf[16][8] = {
+    {},
+    {0, 1},
+    {2, 3},
+    {0, 1, 2, 3},
+    {4, 5},
+    {0, 1, 4, 5},
+    {2, 3, 4, 5},
+    {0, 1, 2, 3, 4, 5},
+    {6, 7},
+    {0, 1, 6, 7},
+    {2, 3, 6, 7},
+    {0, 1, 2, 3, 6, 7},
+    {4, 5, 6, 7},
+    {0, 1, 4, 5, 6, 7},
+    {2, 3, 4, 5, 6, 7},
+    {0, 1, 2, 3, 4, 5, 6, 7},
+};
+#endif
 
 /// The chosen lanes of 64 bits side by side, from lane 0 on; the others hold anything.
 template <class D>
 HWY_INLINE hwy::HWY_NAMESPACE::Vec<D> compress(D d, hwy::HWY_NAMESPACE::Vec<D> v, hwy::HWY_NAMESPACE::Mask<D> which) {
   namespace hn = hwy::HWY_NAMESPACE;
+  // Highway 1.0 looks this up in tables that GCC copies to the stack first, each time.
 #if HWY_TARGET == HWY_AVX3 || HWY_TARGET == HWY_AVX3_DL
-  // Highway 1.0's is a look-up in a table.
   const hn::RebindToUnsigned<D> u;
   return hn::BitCast(
       d, hn::Vec<decltype(u)>{_mm512_maskz_compress_epi64(hn::RebindMask(u, which).raw, hn::BitCast(u, v).raw)});
+#elif HWY_TARGET == HWY_AVX2
+  const hn::RebindToUnsigned<D> u;
+  const hn::Repartition<double, D> f;
+  const int lanes = _mm256_movemask_pd(hn::BitCast(f, hn::VecFromMask(d, which)).raw);
+  const __m256i order = _mm256_load_si256(reinterpret_cast<const __m256i*>(kHalvesOf[lanes]));
+  return hn::BitCast(d, hn::Vec<decltype(u)>{_mm256_permutevar8x32_epi32(hn::BitCast(u, v).raw, order)});
 #else
   (void)d;
   return hn::Compress(v, which);
