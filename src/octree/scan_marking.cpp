@@ -60,7 +60,7 @@ std::optional<PointRay> rayOf(const KeySpace& keys, const point3d& p, const poin
   return ray;
 }
 
-/// Marks part of a scan: one thread's work.
+/// Marks parts of a scan: one thread's work.
 class Marker {
  public:
   Marker(const KeySpace& keys, const point3d& origin, const ScanMarkingConfig& config, ScanMasks masks)
@@ -72,20 +72,17 @@ class Marker {
       for (const point3d& p : points) addInBox(p, *config_.box);
       return;
     }
-    const RayOrigin start(keys_, origin_, config_.max_range);
-    const auto batch = std::make_unique_for_overwrite<RayBatch>();
-    const auto hits = std::make_unique_for_overwrite<HitCells>();
     while (!points.empty()) {
-      const auto next = points.first(std::min(points.size(), batch->room()));
+      const auto next = points.first(std::min(points.size(), batch_->room()));
       points = points.subspan(next.size());
-      const RayCounts counts = startRays(start, next, *batch, *hits);
+      const RayCounts counts = startRays(start_, next, *batch_, *hits_);
       counts_.not_finite += counts.not_finite;
       counts_.outside += counts.outside;
-      for (std::size_t i = 0; i < hits->size; ++i) masks_.markHit(hits->cell[i]);
-      hits->size = 0;
-      if (!points.empty() && batch->room() > RayBatch::kCapacity / 4) continue;  // many rays make good use of the lanes
-      walkRays(*batch, masks_);
-      batch->clear();
+      for (std::size_t i = 0; i < hits_->size; ++i) masks_.markHit(hits_->cell[i]);
+      hits_->size = 0;
+      if (!points.empty() && batch_->room() > RayBatch::kCapacity / 4) continue;  // many rays keep the lanes busy
+      walkRays(*batch_, masks_);
+      batch_->clear();
     }
   }
 
@@ -111,6 +108,9 @@ class Marker {
   const KeySpace& keys_;
   const point3d& origin_;
   const ScanMarkingConfig& config_;
+  RayOrigin start_{keys_, origin_, config_.max_range};
+  std::unique_ptr<RayBatch> batch_ = std::make_unique_for_overwrite<RayBatch>();
+  std::unique_ptr<HitCells> hits_ = std::make_unique_for_overwrite<HitCells>();
   ScanMasks masks_;
   ScanCounts counts_;
 };
@@ -119,17 +119,19 @@ class Marker {
 
 ScanMasks markScan(const KeySpace& keys, const octomap::Pointcloud& scan, const point3d& origin,
                    const ScanMarkingConfig& config, ScanCounts& counts) {
-  const auto parts = static_cast<std::size_t>(config.num_threads < 1 ? 1 : config.num_threads);
-  std::vector<Marker> markers;
-  markers.reserve(parts);
+  constexpr std::size_t kPart = 4096;  // points that a thread takes at a time: some are much longer than others
+  const std::span<const point3d> points(scan.size() == 0 ? nullptr : &scan[0], scan.size());
+  const std::size_t parts = (points.size() + kPart - 1) / kPart;
+  const std::size_t threads =
+      std::clamp(parts, std::size_t{1}, static_cast<std::size_t>(std::max(config.num_threads, 1)));
   const auto reach = reachOf(keys, scan, origin, config.max_range);
-  for (std::size_t i = 0; i < parts; ++i)
+  std::vector<Marker> markers;
+  markers.reserve(threads);
+  for (std::size_t i = 0; i < threads; ++i)
     markers.emplace_back(keys, origin, config, reach ? ScanMasks(reach->first, reach->second) : ScanMasks());
 
-  const std::span<const point3d> points(scan.size() == 0 ? nullptr : &scan[0], scan.size());
-  forEachPart(parts, parts, [&](std::size_t part, std::size_t) {
-    const std::size_t first = points.size() * part / parts;
-    markers[part].add(points.subspan(first, points.size() * (part + 1) / parts - first));
+  forEachPart(parts, threads, [&](std::size_t part, std::size_t thread) {
+    markers[thread].add(points.subspan(part * kPart, std::min(kPart, points.size() - part * kPart)));
   });
 
   for (const Marker& marker : markers) {
@@ -137,7 +139,7 @@ ScanMasks markScan(const KeySpace& keys, const octomap::Pointcloud& scan, const 
     counts.not_finite += marker.counts().not_finite;
     counts.outside += marker.counts().outside;
   }
-  for (std::size_t i = 1; i < parts; ++i) markers[0].masks().merge(markers[i].masks());
+  for (std::size_t i = 1; i < threads; ++i) markers[0].masks().merge(markers[i].masks());
   return std::move(markers[0].masks());
 }
 
