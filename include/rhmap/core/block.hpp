@@ -2,7 +2,9 @@
 #pragma once
 
 #include <array>
+#include <bit>
 #include <cstdint>
+#include <cstring>
 
 #include "rhmap/core/key.hpp"
 
@@ -13,7 +15,7 @@ namespace rhmap {
 /// 63 hold the cells, 64 ... 71 the middle nodes, 72 the top nodes. Hence the whole of the tree's structure:
 ///   - the children of slot s >= 512 are octet s - 512 of the same block;
 ///   - the children of a cell are octet 72 of the block of the next level that lies under the cell.
-inline constexpr int kCells = 512;
+inline constexpr int kCells = kCellsInBlock;
 inline constexpr int kMiddleSlot = 512;
 inline constexpr int kTopSlot = 576;
 inline constexpr int kSlots = 584;
@@ -63,6 +65,41 @@ struct alignas(128) Block {
   }
 };
 static_assert(sizeof(Block) == 384);
+
+/// The masks of eight octets, the first in the lowest byte.
+inline std::uint64_t masksFrom(const Block& block, int first_octet) {
+  std::uint64_t word;
+  std::memcpy(&word, block.mask.data() + first_octet, sizeof word);
+  if constexpr (std::endian::native == std::endian::big) word = __builtin_bswap64(word);
+  return word;
+}
+
+/// The leaf of a region after a slot, depth first; the first if that is -1. -1 if there is none.
+inline int nextLeaf(const Block& region, int slot) {
+  int from = 0;  // of the 64 middle nodes
+  if (slot >= kTopSlot) {
+    from = 8 * (slot - kTopSlot + 1);
+  } else if (slot >= kMiddleSlot) {
+    from = slot - kMiddleSlot + 1;
+  } else if (slot >= 0) {
+    if (const unsigned later = region.mask[static_cast<unsigned>(slot) >> 3] & (0xfeU << (slot & 7)); later != 0)
+      return (slot & ~7) + std::countr_zero(later);
+    from = (slot >> 3) + 1;
+  }
+  if (from >= 64) return -1;
+  // A top node that is a leaf stands where its first middle node would.
+  const std::uint64_t middles = masksFrom(region, kMiddleOctet);
+  std::uint64_t starts = middles;
+  for (unsigned tops = region.mask[kTopOctet]; tops != 0; tops &= tops - 1)
+    if (const int t = std::countr_zero(tops); region.mask[static_cast<unsigned>(kMiddleOctet + t)] == 0)
+      starts |= std::uint64_t{1} << (8 * t);
+  starts &= ~std::uint64_t{0} << from;
+  if (starts == 0) return -1;
+  const int at = std::countr_zero(starts);
+  if ((middles >> at & 1) == 0) return kTopSlot + (at >> 3);
+  const unsigned cells = region.mask[static_cast<unsigned>(at)];
+  return cells != 0 ? 8 * at + std::countr_zero(cells) : kMiddleSlot + at;
+}
 
 /// Level of the block with this blockKey().
 inline int blockLevel(std::uint64_t block_key) { return static_cast<int>(block_key >> 39); }

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <algorithm>
 #include <bit>
 #include <cstddef>
 #include <cstdint>
@@ -59,15 +60,48 @@ class BlockStore {
 
   /// The node at `depth` around `key`, or the shallower leaf that contains it; empty if unknown.
   NodeRef search(const OcTreeKey& key, unsigned depth = kTreeDepth) const {
-    const int level = static_cast<int>(depth + 1) / 3;
-    for (int l = level; l >= 0; --l) {
-      Block* block = findBlock(key, l);
-      if (block == nullptr) continue;
-      // A cell of an upper block whose own block was not found has no children: it is what contains the node.
-      const int cell = cellIndex(key, l);
-      return searchIn(block, l == level ? slotAbove(cell, static_cast<int>(depth) - 3 * level) : cell);
+    if (depth == kTreeDepth) {
+      if (Block* region = findRegion(key)) return searchCell(region, cellIndex(key, kRegionLevel)).node;
+      return searchAbove(key, kRegionLevel).node;
     }
-    return {};
+    const int level = static_cast<int>(depth + 1) / 3;
+    Block* block = findBlock(key, level);
+    if (block == nullptr) return searchAbove(key, level).node;
+    return searchIn(block, slotAbove(cellIndex(key, level), static_cast<int>(depth) - 3 * level));
+  }
+
+  /// What a search at depth 16 has found: a node, or nothing; and that all cells of the cube of 2^bits cells an edge
+  /// around the key would have found the same.
+  struct Found {
+    NodeRef node;
+    int bits;
+  };
+
+  /// searchIn() for a cell of a region.
+  static Found searchCell(Block* region, int cell) {
+    // Without branches: at which of the three depths a ray or a cloud meets the map is anybody's guess.
+    const unsigned cells = region->mask[static_cast<unsigned>(cell) >> 3];
+    const unsigned middles = region->mask[kMiddleOctet + (static_cast<unsigned>(cell) >> 6)];
+    const unsigned tops = region->mask[kTopOctet];
+    // 0: among the cells, 1: there are none, but a middle node may be; 2: nor such a node's siblings
+    const int up = (cells == 0) + ((cells | middles) == 0);
+    const unsigned mask = up == 0 ? cells : up == 1 ? middles : tops;
+    const int index = cell >> (3 * up);
+    const bool exists = mask >> (index & 7) & 1;
+    return {exists ? NodeRef{region, kFirstSlot[up] + index} : NodeRef{}, up};
+  }
+
+  /// The same where there is no block of this level.
+  Found searchAbove(const OcTreeKey& key, int level) const {
+    while (--level >= 0) {
+      Block* block = findBlock(key, level);
+      if (block == nullptr) continue;
+      // A cell whose own block was not found has no children: it is what contains the key.
+      Found found = searchCell(block, cellIndex(key, level));
+      found.bits = std::min(found.bits + cellShift(level), static_cast<int>(kTreeDepth));  // above the root is nothing
+      return found;
+    }
+    return {{}, static_cast<int>(kTreeDepth)};
   }
 
   /// The node in a slot, or the leaf of the same block that contains it; empty if unknown.
@@ -315,6 +349,8 @@ class BlockStore {
   }
 
  private:
+  static constexpr int kFirstSlot[] = {0, kMiddleSlot, kTopSlot};
+
   /// For nodes on their own: the children of the node that has this address inside it.
   static NodeChildren childrenAround(const void* store, const void* node) {
     const Octet<NODE> octet = static_cast<const BlockStore*>(store)->children(OctetPool<NODE>::locate(node));

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include <sys/mman.h>
 #include <algorithm>
 #include <bit>
 #include <cstddef>
@@ -155,7 +154,7 @@ class OctetPool {
 
   SlabHeader* newSlab(bool inner) {
     void* memory = ::operator new (kSlabBytes, std::align_val_t{kSlabBytes});
-    madvise(memory, kSlabBytes, 14);
+    if (slabs_.size() >= 2) preferLargePages(memory, kSlabBytes);  // small maps stay small
     auto* slab = new (memory) SlabHeader{inner, store_, children_};
     try {
       addSlab(slab);

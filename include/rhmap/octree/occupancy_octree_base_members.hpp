@@ -3,6 +3,8 @@
 
 // Members of OccupancyOcTreeBase that are more than a line or two; included by occupancy_octree_base.hpp.
 
+#include <limits>
+
 #include "rhmap/core/region_cursor.hpp"
 #include "rhmap/octree/map_codec.hpp"
 #include "rhmap/octree/occupancy_octree_base.hpp"
@@ -268,14 +270,12 @@ bool OccupancyOcTreeBase<NODE>::castRay(const point3d& origin, const point3d& di
     return hit;
   };
   // A cell's centre is no farther from where the ray enters than a diagonal: up to here the range needs no test.
-  const double certainly_within = maxRange - (2 * this->getResolution() + 1e-5 * maxRange);
+  const double certainly_within = maxRange > 0.0 ? maxRange - (2 * this->getResolution() + 1e-5 * maxRange)
+                                                 : std::numeric_limits<double>::infinity();
   for (;;) {
-    const int axis = ray->nextAxis();
-    const key_type k = ray->key[static_cast<unsigned>(axis)];
-    if (ray->step[axis] < 0 ? k == 0 : k == 2 * kTreeMaxVal - 1) return stop(false);  // the border of the key space
-    const double entry = ray->t_max[axis];
-    ray->advance(axis);
-    if (maxRange > 0.0 && entry > certainly_within && beyond(this->keyToCoord(ray->key))) return stop(false);
+    const RayEntry entry = leaveCube(*ray, cursor.bits(), certainly_within);
+    if (!entry.in_space) return stop(false);
+    if (entry.distance > certainly_within && beyond(this->keyToCoord(ray->key))) return stop(false);
     const NODE* node = cursor.search(ray->key);
     if (node == nullptr ? !ignoreUnknown : this->isNodeOccupied(node)) return stop(node != nullptr);
   }
