@@ -74,31 +74,10 @@ inline std::uint64_t masksFrom(const Block& block, int first_octet) {
   return word;
 }
 
-/// The leaf of a region after a slot, depth first; the first if that is -1. -1 if there is none.
-inline int nextLeaf(const Block& region, int slot) {
-  int from = 0;  // of the 64 middle nodes
-  if (slot >= kTopSlot) {
-    from = 8 * (slot - kTopSlot + 1);
-  } else if (slot >= kMiddleSlot) {
-    from = slot - kMiddleSlot + 1;
-  } else if (slot >= 0) {
-    if (const unsigned later = region.mask[static_cast<unsigned>(slot) >> 3] & (0xfeU << (slot & 7)); later != 0)
-      return (slot & ~7) + std::countr_zero(later);
-    from = (slot >> 3) + 1;
-  }
-  if (from >= 64) return -1;
-  // A top node that is a leaf stands where its first middle node would.
-  const std::uint64_t middles = masksFrom(region, kMiddleOctet);
-  std::uint64_t starts = middles;
-  for (unsigned tops = region.mask[kTopOctet]; tops != 0; tops &= tops - 1)
-    if (const int t = std::countr_zero(tops); region.mask[static_cast<unsigned>(kMiddleOctet + t)] == 0)
-      starts |= std::uint64_t{1} << (8 * t);
-  starts &= ~std::uint64_t{0} << from;
-  if (starts == 0) return -1;
-  const int at = std::countr_zero(starts);
-  if ((middles >> at & 1) == 0) return kTopSlot + (at >> 3);
-  const unsigned cells = region.mask[static_cast<unsigned>(at)];
-  return cells != 0 ? 8 * at + std::countr_zero(cells) : kMiddleSlot + at;
+/// Bit 7 of each byte that is not 0.
+constexpr std::uint64_t nonzeroBytes(std::uint64_t bytes) {
+  constexpr std::uint64_t kLow = 0x7f7f'7f7f'7f7f'7f7f;
+  return (((bytes & kLow) + kLow) | bytes) & ~kLow;
 }
 
 /// Level of the block with this blockKey().

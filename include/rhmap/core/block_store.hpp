@@ -260,9 +260,11 @@ class BlockStore {
     for (auto& source : nodes_.reserve(threads, regions * kOctets)) editors.emplace_back(nodes_, source);
     return editors;
   }
-  /// Takes over what editors have done; the caller calls touch() for the regions that they have changed.
-  void takeOver(const std::vector<RegionEditor<NODE>>& editors) {
-    for (const RegionEditor<NODE>& editor : editors) size_ += static_cast<std::size_t>(editor.made());
+  /// For one thread.
+  RegionEditor<NODE> editor() { return {nodes_, nodes_.source()}; }
+  /// Takes over what an editor has done; the caller calls touch() for the regions that it has changed.
+  void takeOver(const RegionEditor<NODE>& editor) {
+    size_ += static_cast<std::size_t>(editor.made());
     ++version_;
   }
 

@@ -305,7 +305,8 @@ std::istream& OccupancyOcTreeBase<NODE>::readBinaryNode(std::istream& s, NODE* n
     return s;
   }
   try {
-    codec::readBits(*this->store_, at, this->clamping_thres_min, this->clamping_thres_max, s);
+    codec::ByteReader in(s);
+    codec::readBits(*this->store_, at, this->clamping_thres_min, this->clamping_thres_max, in);
   } catch (const std::runtime_error&) {
     structure::removeBelow(*this->store_, at);
     s.setstate(std::ios::failbit);

@@ -43,7 +43,8 @@ std::istream& OcTreeBaseImpl<NODE, INTERFACE>::readData(std::istream& s) {
     return s;
   }
   try {
-    codec::readValues(*store_, store_->createRoot(), s);
+    codec::ByteReader in(s);
+    codec::readValues(*store_, store_->createRoot(), in);
   } catch (const std::runtime_error&) {
     store_->clear();
     s.setstate(std::ios::failbit);

@@ -4,7 +4,6 @@
 #include <array>
 #include <bit>
 #include <cstdint>
-#include <cstring>
 #include <span>
 #include <type_traits>
 
@@ -128,12 +127,6 @@ class RegionUpdate {
     update.start = start;
   }
 
-  /// Bit 7 of each byte that is not 0.
-  static std::uint64_t nonzeroBytes(std::uint64_t bytes) {
-    constexpr std::uint64_t kLow = 0x7f7f7f7f7f7f7f7f;
-    return (((bytes & kLow) + kLow) | bytes) & ~kLow;
-  }
-
   /// All cells below a leaf have its value: drops the marks that would change nothing. False if none is left.
   template <class BITS>
   bool keepUnsettled(float value, BITS& hit, BITS& free) const {
@@ -180,9 +173,7 @@ class RegionUpdate {
     const int middles = kMiddleOctet + top;
     const Octet<NODE> children{editor_.nodes(region, middles), mask(region, middles)};
     NODE& node = editor_.nodes(region, kTopOctet)[top];
-    std::uint64_t cells;
-    std::memcpy(&cells, &region.mask[static_cast<std::size_t>(8 * top)], sizeof cells);
-    bool uniform = cells == 0 && children.mask == 0xff;
+    bool uniform = children.mask == 0xff && masksFrom(region, 8 * top) == 0;
     for (int i = 1; i < 8 && uniform; ++i) uniform = children.nodes[i] == children.nodes[0];
     if (uniform) {
       node.copyData(children.nodes[0]);

@@ -32,7 +32,7 @@ class ScanApplier {
       updatePart(std::span(regions_).subspan(part * kPart).first(std::min(kPart, regions_.size() - part * kPart)),
                  editors[thread]);
     });
-    store_.takeOver(editors);
+    for (const auto& editor : editors) store_.takeOver(editor);
     close();
   }
 
