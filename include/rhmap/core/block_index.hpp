@@ -62,6 +62,14 @@ class BlockIndex {
       if (e.value != nullptr) visit(*e.value);
   }
 
+  /// True if `holds` does for all.
+  template <class F>
+  bool all(F&& holds) const {
+    for (const Entry& e : entries_)
+      if (e.value != nullptr && !holds(*e.value)) return false;
+    return true;
+  }
+
  private:
   struct Entry {
     std::uint64_t key = 0;

@@ -2,11 +2,10 @@
 #pragma once
 
 #include <cstddef>
-#include <new>
 #include <vector>
 
 #include "rhmap/core/block.hpp"
-#include "rhmap/core/large_pages.hpp"
+#include "rhmap/core/large_piece.hpp"
 
 namespace rhmap {
 
@@ -31,7 +30,7 @@ class BlockPool {
   void release(Block* block) noexcept { free_.push_back(block); }
 
   void clear() {
-    for (void* chunk : chunks_) ::operator delete (chunk, std::align_val_t{kLargePageBytes});
+    for (void* chunk : chunks_) freeLargePiece(chunk);
     chunks_ = decltype(chunks_)();
     free_ = decltype(free_)();
     capacity_ = 0;
@@ -43,13 +42,12 @@ class BlockPool {
   }
 
  private:
-  static constexpr std::size_t kChunk = kLargePageBytes / sizeof(Block);
+  static constexpr std::size_t kChunk = kLargePieceBytes / sizeof(Block);
 
   void addChunk() {
     chunks_.reserve(chunks_.size() + 1);
-    free_.reserve(capacity_ + kChunk);  // so that release() cannot throw
-    void* memory = ::operator new (kLargePageBytes, std::align_val_t{kLargePageBytes});
-    if (!chunks_.empty()) preferLargePages(memory, kLargePageBytes);  // small maps stay small
+    free_.reserve(capacity_ + kChunk);                    // so that release() cannot throw
+    void* memory = allocateLargePiece(!chunks_.empty());  // small maps stay small
     chunks_.push_back(memory);
     capacity_ += kChunk;
     next_ = static_cast<Block*>(memory);

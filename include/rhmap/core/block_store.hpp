@@ -325,6 +325,17 @@ class BlockStore {
     size_ = other.size_;
   }
 
+  /// The same nodes, with equal values.
+  bool operator==(const BlockStore& other) const {
+    return size_ == other.size_ && index_.all([&](const Block& a) {
+      const Block* b = other.findBlock(blockKey(a.corner, a.level));
+      if (b == nullptr || a.mask != b->mask) return false;
+      for (int o = 0; o < kOctets; ++o)
+        if (a.mask[o] != 0 && !equal(octet(&a, o), other.octet(b, o).nodes)) return false;
+      return true;
+    });
+  }
+
   // --- being observed ---
 
   /// To be called where values of existing nodes change; making and removing nodes calls it by itself.
@@ -363,6 +374,13 @@ class BlockStore {
     if constexpr (!std::is_trivially_destructible_v<NODE>)
       for (unsigned i = 0; i < 8; ++i)
         if (o.has(i)) o.nodes[i].~NODE();
+  }
+
+  static bool equal(const Octet<NODE>& a, const NODE* b) {
+    bool equal = true;
+    for (unsigned rest = a.mask; rest != 0; rest &= rest - 1)
+      equal = equal && a.nodes[std::countr_zero(rest)] == b[std::countr_zero(rest)];
+    return equal;
   }
 
   NodeRef create(Block* block, int slot) {

@@ -97,7 +97,7 @@ class OctetPool {
   void clear() {
     for (SlabHeader* slab : slabs_) {
       removeSlab(slab);
-      ::operator delete (slab, std::align_val_t{kSlabBytes});
+      freeLargePiece(slab);
     }
     slabs_ = decltype(slabs_)();
     sources_ = std::vector<Source>(1);
@@ -153,13 +153,12 @@ class OctetPool {
   }
 
   SlabHeader* newSlab(bool inner) {
-    void* memory = ::operator new (kSlabBytes, std::align_val_t{kSlabBytes});
-    if (slabs_.size() >= 2) preferLargePages(memory, kSlabBytes);  // small maps stay small
+    void* memory = allocateLargePiece(slabs_.size() >= 2);  // small maps stay small
     auto* slab = new (memory) SlabHeader{inner, store_, children_};
     try {
       addSlab(slab);
     } catch (...) {
-      ::operator delete (memory, std::align_val_t{kSlabBytes});
+      freeLargePiece(memory);
       throw;
     }
     return slab;
