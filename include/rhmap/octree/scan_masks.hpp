@@ -11,6 +11,7 @@
 
 #include "rhmap/core/block_index.hpp"
 #include "rhmap/core/key.hpp"
+#include "rhmap/core/large_piece.hpp"
 
 namespace rhmap {
 
@@ -102,7 +103,7 @@ class ScanMasks {
   template <class F>
   void forEachRegion(F&& visit) const {
     for (std::size_t c = 0; c < chunks_.size(); ++c) {
-      const std::size_t n = c + 1 < chunks_.size() ? kChunk : used_;
+      const std::size_t n = c + 1 < chunks_.size() ? sizeOf(c) : used_;
       for (std::size_t i = 0; i < n; ++i) visit(static_cast<const RegionMasks&>(chunks_[c][i]));
     }
   }
@@ -122,7 +123,10 @@ class ScanMasks {
   }
 
  private:
-  static constexpr std::size_t kChunk = 256;
+  /// A small scan needs few; those of a large one are in large pages, because the marks of rays jump about in them.
+  static constexpr std::size_t sizeOf(std::size_t chunk) {
+    return chunk == 0 ? 256 : kLargePieceBytes / sizeof(RegionMasks);
+  }
 
   static constexpr int kLargestTableBits = 22;
 
@@ -139,8 +143,9 @@ class ScanMasks {
   }
 
   RegionMasks& create(std::uint64_t region) {
-    if (chunks_.empty() || used_ == kChunk) {
-      chunks_.push_back(std::make_unique_for_overwrite<RegionMasks[]>(kChunk));
+    if (chunks_.empty() || used_ == sizeOf(chunks_.size() - 1)) {
+      chunks_.reserve(chunks_.size() + 1);
+      chunks_.emplace_back(static_cast<RegionMasks*>(allocateLargePiece(!chunks_.empty())));
       used_ = 0;
     }
     RegionMasks& fresh = chunks_.back()[used_++];
@@ -157,7 +162,10 @@ class ScanMasks {
   int z_shift_ = 0;
   std::unique_ptr<RegionMasks*[], Free> table_;  // zeroed by calloc: pages that no ray reaches are never touched
   BlockIndex<RegionMasks> index_;
-  std::vector<std::unique_ptr<RegionMasks[]>> chunks_;
+  struct FreePiece {
+    void operator()(RegionMasks* p) const { freeLargePiece(p); }
+  };
+  std::vector<std::unique_ptr<RegionMasks[], FreePiece>> chunks_;
   std::size_t used_ = 0;
 };
 
