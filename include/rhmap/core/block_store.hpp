@@ -14,6 +14,7 @@
 #include "rhmap/core/block_index.hpp"
 #include "rhmap/core/block_journal.hpp"
 #include "rhmap/core/block_pool.hpp"
+#include "rhmap/core/block_search.hpp"
 #include "rhmap/core/octet_pool.hpp"
 #include "rhmap/core/region_editor.hpp"
 #include "rhmap/core/trunk.hpp"
@@ -70,28 +71,7 @@ class BlockStore {
     return searchIn(block, slotAbove(cellIndex(key, level), static_cast<int>(depth) - 3 * level));
   }
 
-  /// What a search at depth 16 has found: a node, or nothing; and that all cells of the cube of 2^bits cells an edge
-  /// around the key would have found the same.
-  struct Found {
-    NodeRef node;
-    int bits;
-  };
-
-  /// searchIn() for a cell of a region.
-  static Found searchCell(Block* region, int cell) {
-    // Without branches: at which of the three depths a ray or a cloud meets the map is anybody's guess.
-    const unsigned cells = region->mask[static_cast<unsigned>(cell) >> 3];
-    const unsigned middles = region->mask[kMiddleOctet + (static_cast<unsigned>(cell) >> 6)];
-    const unsigned tops = region->mask[kTopOctet];
-    // 0: among the cells, 1: there are none, but a middle node may be; 2: nor such a node's siblings
-    const int up = (cells == 0) + ((cells | middles) == 0);
-    const unsigned mask = up == 0 ? cells : up == 1 ? middles : tops;
-    const int index = cell >> (3 * up);
-    const bool exists = mask >> (index & 7) & 1;
-    return {exists ? NodeRef{region, kFirstSlot[up] + index} : NodeRef{}, up};
-  }
-
-  /// The same where there is no block of this level.
+  /// searchCell() where there is no block of this level.
   Found searchAbove(const OcTreeKey& key, int level) const {
     while (--level >= 0) {
       Block* block = findBlock(key, level);
@@ -102,14 +82,6 @@ class BlockStore {
       return found;
     }
     return {{}, static_cast<int>(kTreeDepth)};
-  }
-
-  /// The node in a slot, or the leaf of the same block that contains it; empty if unknown.
-  static NodeRef searchIn(Block* block, int slot) {
-    if (block->has(slot)) return {block, slot};
-    for (slot = parentSlot(slot >> 3); slot < kSlots; slot = parentSlot(slot >> 3))
-      if (block->has(slot)) return block->mask[childOctet(slot)] == 0 ? NodeRef{block, slot} : NodeRef{};
-    return {};
   }
 
   /// The deepest existing node on the way to `key`; empty in an empty tree.
@@ -362,8 +334,6 @@ class BlockStore {
   }
 
  private:
-  static constexpr int kFirstSlot[] = {0, kMiddleSlot, kTopSlot};
-
   /// For nodes on their own: the children of the node that has this address inside it.
   static NodeChildren childrenAround(const void* store, const void* node) {
     const Octet<NODE> octet = static_cast<const BlockStore*>(store)->children(OctetPool<NODE>::locate(node));

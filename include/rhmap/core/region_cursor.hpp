@@ -22,7 +22,7 @@ class RegionCursor {
       region_ = store_.findRegion(key);
       if (region_ == nullptr) whole_ = store_.searchAbove(key, kRegionLevel);
     }
-    const auto found = region_ == nullptr ? whole_ : store_.searchCell(region_, cellIndex(key, kRegionLevel));
+    const auto found = region_ == nullptr ? whole_ : searchCell(region_, cellIndex(key, kRegionLevel));
     bits_ = found.bits;
     return found.node ? store_.node(found.node) : nullptr;
   }
@@ -33,8 +33,8 @@ class RegionCursor {
  private:
   const BlockStore<NODE>& store_;
   std::uint64_t name_ = std::numeric_limits<std::uint64_t>::max();
-  Block* region_ = nullptr;                   // null: there is none here, and
-  typename BlockStore<NODE>::Found whole_{};  // this holds for all its cells
+  Block* region_ = nullptr;  // null: there is none here, and
+  Found whole_{};            // this holds for all its cells
   int bits_ = 0;
 };
 
