@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "rhmap/octree/ray_walk.hpp"
 
-#include <algorithm>
-
 #undef HWY_TARGET_INCLUDE
 #define HWY_TARGET_INCLUDE "ray_walk.cpp"
 #include <hwy/foreach_target.h>  // compiles this file once for every instruction set
 #include <hwy/highway.h>
+
+#include "compress-inl.hpp"
 
 HWY_BEFORE_NAMESPACE();
 namespace rhmap::HWY_NAMESPACE {
@@ -17,162 +17,141 @@ using U = hn::RebindToUnsigned<F>;
 using VF = hn::Vec<F>;
 using VU = hn::Vec<U>;
 using MF = hn::Mask<F>;
+using MU = hn::Mask<U>;
 
-/// What a lane has marked in one octant, on its way to the masks.
+constexpr std::size_t kMostLanes = HWY_MAX_BYTES / sizeof(double);
+static_assert(kMostLanes <= RayBatch::kPad);
+
+/// What the lanes have marked, each in one octant, on its way to the masks: any cell of the octant, and the bits of
+/// those that were crossed.
 struct Marks {
   static constexpr std::size_t kCapacity = 2048;
-  alignas(64) std::uint64_t octant[kCapacity];
-  alignas(64) std::uint64_t bits[kCapacity];
+  alignas(64) std::uint64_t cell[kCapacity + 4 * kMostLanes];
+  alignas(64) std::uint64_t bits[kCapacity + 4 * kMostLanes];
   std::size_t size = 0;
 
   void flush(ScanMasks& masks) {
-    for (std::size_t i = 0; i < size; ++i) masks.markFree(octant[i], bits[i]);
+    for (std::size_t i = 0; i < size; ++i) masks.markFree(cell[i] >> 6, bits[i]);
     size = 0;
   }
 };
 
 /// One ray a lane. A lane collects the cells of one octant in `marked` and hands them on when it leaves the octant.
+/// Cells are mirrored (see RayBatch), so that all steps go upwards.
 struct Lanes {
-  VF t_max[3], t_delta[3], length;
-  VU step[3], cell, end, marked;
+  VF tx, ty, tz, dx, dy, dz, length;
+  VU mirror, cell, end, marked;
+  MU busy;  ///< lanes with a ray
 };
 
-/// The same as arrays, to put another ray into a lane.
-struct LaneArrays {
-  static constexpr std::size_t kLanes = HWY_MAX_BYTES / sizeof(double);
-  alignas(64) double t_max[3][kLanes];
-  alignas(64) double t_delta[3][kLanes];
-  alignas(64) double length[kLanes];
-  alignas(64) std::uint64_t step[3][kLanes];
-  alignas(64) std::uint64_t cell[kLanes];
-  alignas(64) std::uint64_t end[kLanes];
-  alignas(64) std::uint64_t marked[kLanes];
+HWY_INLINE VU bitOf(VU cell) {
+  const U u;
+  return hn::Shl(hn::Set(u, 1), hn::And(cell, hn::Set(u, 63)));
+}
 
-  void put(std::size_t lane, const RayBatch& rays, std::size_t ray) {
-    for (std::size_t axis = 0; axis < 3; ++axis) {
-      t_max[axis][lane] = rays.t_max[axis][ray];
-      t_delta[axis][lane] = rays.t_delta[axis][ray];
-      step[axis][lane] = rays.step[axis][ray];
-    }
-    length[lane] = rays.length[ray];
-    cell[lane] = rays.cell[ray];
-    end[lane] = rays.end[ray];
-    marked[lane] = std::uint64_t{1} << (rays.cell[ray] & 63);
-  }
-
-  Lanes load() const {
-    const F f;
-    const U u;
-    Lanes lanes;
-    for (std::size_t axis = 0; axis < 3; ++axis) {
-      lanes.t_max[axis] = hn::Load(f, t_max[axis]);
-      lanes.t_delta[axis] = hn::Load(f, t_delta[axis]);
-      lanes.step[axis] = hn::Load(u, step[axis]);
-    }
-    lanes.length = hn::Load(f, length);
-    lanes.cell = hn::Load(u, cell);
-    lanes.end = hn::Load(u, end);
-    lanes.marked = hn::Load(u, marked);
-    return lanes;
-  }
-
-  /// Only what changes while a ray is walked.
-  void store(const Lanes& lanes) {
-    for (std::size_t axis = 0; axis < 3; ++axis) hn::Store(lanes.t_max[axis], F(), t_max[axis]);
-    hn::Store(lanes.cell, U(), cell);
-    hn::Store(lanes.marked, U(), marked);
-  }
-
-  /// Walks the ray of one lane to its end, without vectors.
-  void finish(std::size_t lane, ScanMasks& masks) {
-    Ray ray{{t_max[0][lane], t_max[1][lane], t_max[2][lane]},
-            {t_delta[0][lane], t_delta[1][lane], t_delta[2][lane]},
-            {},
-            {}};
-    std::uint64_t at = cell[lane];
-    std::uint64_t bits = marked[lane];
-    for (;;) {
-      const int axis = ray.nextAxis();
-      ray.t_max[axis] += ray.t_delta[axis];
-      const std::uint64_t next = cell_word::advance(at, cell_word::kAxis[axis], step[axis][lane]);
-      const bool done = next == end[lane] || ray.exitDistance() > length[lane];
-      if (done || (next ^ at) >> 6 != 0) {
-        masks.markFree(at >> 6, bits);
-        bits = 0;
-      }
-      if (done) return;
-      at = next;
-      bits |= std::uint64_t{1} << (at & 63);
-    }
-  }
-};
-
-/// One step of every lane, forEachRayKey's arithmetic. Returns the lanes whose ray has ended.
-HWY_INLINE MF stepAll(Lanes& l, Marks& marks) {
+/// Puts a ray of the batch into a lane.
+HWY_INLINE void put(Lanes& l, std::size_t lane, const RayBatch& rays, std::size_t ray) {
   const F f;
   const U u;
-  const MF x_before_y = hn::Lt(l.t_max[0], l.t_max[1]);
-  const MF x = hn::And(x_before_y, hn::Lt(l.t_max[0], l.t_max[2]));
-  const MF y = hn::AndNot(x_before_y, hn::Lt(l.t_max[1], l.t_max[2]));
-  const MF z = hn::Not(hn::Or(x, y));
-  l.t_max[0] = hn::IfThenElse(x, hn::Add(l.t_max[0], l.t_delta[0]), l.t_max[0]);
-  l.t_max[1] = hn::IfThenElse(y, hn::Add(l.t_max[1], l.t_delta[1]), l.t_max[1]);
-  l.t_max[2] = hn::IfThenElse(z, hn::Add(l.t_max[2], l.t_delta[2]), l.t_max[2]);
+  const MU here = hn::Eq(hn::Iota(u, 0), hn::Set(u, lane));
+  const MF here_f = hn::RebindMask(f, here);
+  // Other lanes get something from beside it, which is not looked at.
+  const auto load = [&](const auto& column, auto tag)
+                        HWY_ATTR { return hn::LoadU(tag, column.data() + RayBatch::kPad + ray - lane); };
+  l.tx = hn::IfThenElse(here_f, load(rays.t_max[0], f), l.tx);
+  l.ty = hn::IfThenElse(here_f, load(rays.t_max[1], f), l.ty);
+  l.tz = hn::IfThenElse(here_f, load(rays.t_max[2], f), l.tz);
+  l.dx = hn::IfThenElse(here_f, load(rays.t_delta[0], f), l.dx);
+  l.dy = hn::IfThenElse(here_f, load(rays.t_delta[1], f), l.dy);
+  l.dz = hn::IfThenElse(here_f, load(rays.t_delta[2], f), l.dz);
+  l.length = hn::IfThenElse(here_f, load(rays.length, f), l.length);
+  l.mirror = hn::IfThenElse(here, load(rays.mirror, u), l.mirror);
+  l.cell = hn::IfThenElse(here, load(rays.cell, u), l.cell);
+  l.end = hn::IfThenElse(here, load(rays.end, u), l.end);
+  l.marked = hn::IfThenElse(here, bitOf(hn::Xor(l.cell, l.mirror)), l.marked);
+  l.busy = hn::Or(l.busy, here);
+}
 
-  const auto xu = hn::RebindMask(u, x);
-  const auto yu = hn::RebindMask(u, y);
-  const VU axis = hn::IfThenElse(xu, hn::Set(u, cell_word::kAxis[0]),
-                                 hn::IfThenElse(yu, hn::Set(u, cell_word::kAxis[1]), hn::Set(u, cell_word::kAxis[2])));
-  const VU step = hn::IfThenElse(xu, l.step[0], hn::IfThenElse(yu, l.step[1], l.step[2]));
-  const VU moved = hn::And(hn::Add(hn::Or(l.cell, hn::Not(axis)), step), axis);
-  const VU next = hn::Or(moved, hn::AndNot(axis, l.cell));
+/// One step of every lane, forEachRayKey's arithmetic. Returns the lanes whose ray has ended.
+HWY_INLINE MU stepAll(Lanes& l, Marks& marks, std::size_t& size) {
+  const U u;
+  const MF x_before_y = hn::Lt(l.tx, l.ty);
+  const MF z = hn::Le(l.tz, hn::Min(l.tx, l.ty));
+  const MF x = hn::AndNot(z, x_before_y);
+  const MF y = hn::AndNot(z, hn::Not(x_before_y));
+  l.tx = hn::IfThenElse(x, hn::Add(l.tx, l.dx), l.tx);
+  l.ty = hn::IfThenElse(y, hn::Add(l.ty, l.dy), l.ty);
+  l.tz = hn::IfThenElse(z, hn::Add(l.tz, l.dz), l.tz);
 
-  const VF exit = hn::Min(hn::Min(l.t_max[0], l.t_max[1]), l.t_max[2]);
-  const MF done = hn::Or(hn::RebindMask(f, hn::Eq(next, l.end)), hn::Gt(exit, l.length));
-  const auto left = hn::Or(hn::RebindMask(u, done), hn::Ne(hn::ShiftRight<6>(hn::Xor(next, l.cell)), hn::Zero(u)));
+  const VU others =  // the bits of the axes that stay
+      hn::IfThenElse(hn::RebindMask(u, z), hn::Set(u, ~cell_word::kAxis[2]),
+                     hn::IfThenElse(hn::RebindMask(u, x_before_y), hn::Set(u, ~cell_word::kAxis[0]),
+                                    hn::Set(u, ~cell_word::kAxis[1])));
+  const VU up = hn::Add(hn::Or(l.cell, others), hn::Set(u, 1));  // the carry runs through the others' bits
+  const VU next = hn::Or(hn::And(others, l.cell), hn::AndNot(others, up));
 
-  hn::CompressStore(hn::ShiftRight<6>(l.cell), left, u, marks.octant + marks.size);
-  marks.size += hn::CompressStore(l.marked, left, u, marks.bits + marks.size);
-  const VU bit = hn::Shl(hn::Set(u, 1), hn::And(next, hn::Set(u, 63)));
-  l.marked = hn::Or(hn::IfThenZeroElse(left, l.marked), bit);
+  const VF exit = hn::Min(hn::Min(l.tx, l.ty), l.tz);
+  const MU done = hn::And(hn::Or(hn::Eq(next, l.end), hn::RebindMask(u, hn::Gt(exit, l.length))), l.busy);
+  const MU moved = hn::Ne(hn::And(hn::Xor(next, l.cell), hn::Set(u, ~std::uint64_t{63})), hn::Zero(u));
+  const MU left = hn::And(hn::Or(done, moved), l.busy);
+
+  storeCompressed(u, hn::Xor(l.cell, l.mirror), left, marks.cell + size);
+  storeCompressed(u, l.marked, left, marks.bits + size);
+  size += hn::CountTrue(u, left);
+  l.marked = hn::Or(hn::IfThenZeroElse(left, l.marked), bitOf(hn::Xor(next, l.mirror)));
   l.cell = next;
   return done;
 }
 
+/// Gives the lanes whose ray has ended the next ones of the batch.
+HWY_INLINE void refill(Lanes& l, MU done, const RayBatch& rays, std::size_t& next_ray) {
+  const U u;
+  l.busy = hn::AndNot(done, l.busy);
+  std::uint8_t bits[8] = {};
+  hn::StoreMaskBits(u, done, bits);
+  for (unsigned ended = bits[0]; ended != 0 && next_ray < rays.size(); ended &= ended - 1)
+    put(l, static_cast<std::size_t>(hwy::Num0BitsBelowLS1Bit_Nonzero32(ended)), rays, next_ray++);
+}
+
+/// Walks until all rays have ended (true) or there is no room for more marks. A function without calls, so that the
+/// lanes stay in registers; two vectors at a time, because each step waits for the one before.
+HWY_NOINLINE bool walk(Lanes (&lanes)[2], const RayBatch& rays, std::size_t& next_ray, Marks& marks) {
+  const U u;
+  Lanes a = lanes[0];
+  Lanes b = lanes[1];
+  std::size_t next = next_ray;
+  std::size_t size = marks.size;
+  bool busy = true;
+  do {
+    const MU done_a = stepAll(a, marks, size);
+    const MU done_b = stepAll(b, marks, size);
+    if (HWY_LIKELY(hn::AllFalse(u, hn::Or(done_a, done_b)))) continue;
+    refill(a, done_a, rays, next);
+    refill(b, done_b, rays, next);
+    busy = !hn::AllFalse(u, hn::Or(a.busy, b.busy));
+  } while (busy && size < Marks::kCapacity);
+  lanes[0] = a;
+  lanes[1] = b;
+  next_ray = next;
+  marks.size = size;
+  return !busy;
+}
+
 void WalkRays(const RayBatch& rays, ScanMasks& masks) {
   const F f;
-  const std::size_t width = hn::Lanes(f);
-  LaneArrays arrays;
-  std::size_t busy = std::min(width, rays.size());
-  for (std::size_t lane = 0; lane < busy; ++lane) arrays.put(lane, rays, lane);
-  if (busy == width) {
-    Marks marks;
-    Lanes lanes = arrays.load();
-    for (std::size_t next_ray = width;;) {
-      const MF done = stepAll(lanes, marks);
-      if (marks.size > Marks::kCapacity - 2 * LaneArrays::kLanes) marks.flush(masks);
-      if (HWY_LIKELY(hn::AllFalse(f, done))) continue;
-      arrays.store(lanes);
-      std::uint8_t bits[8] = {};
-      hn::StoreMaskBits(f, done, bits);
-      for (unsigned ended = bits[0]; ended != 0; ended &= ended - 1) {
-        const auto lane = static_cast<std::size_t>(hwy::Num0BitsBelowLS1Bit_Nonzero32(ended));
-        if (next_ray < rays.size()) {
-          arrays.put(lane, rays, next_ray++);
-        } else {
-          arrays.end[lane] = arrays.cell[lane];  // nothing left for this lane
-          --busy;
-        }
-      }
-      if (busy < width) break;
-      lanes = arrays.load();
-    }
-    marks.flush(masks);
-    for (std::size_t lane = 0; lane < width; ++lane)
-      if (arrays.end[lane] != arrays.cell[lane]) arrays.finish(lane, masks);
-  } else {
-    for (std::size_t lane = 0; lane < busy; ++lane) arrays.finish(lane, masks);
-  }
+  const U u;
+  Marks marks;
+  const VF nowhere = hn::Zero(f);
+  const VU none = hn::Zero(u);
+  const MU idle = hn::FirstN(u, 0);
+  Lanes lanes[2];
+  for (Lanes& l : lanes)
+    l = {nowhere, nowhere, nowhere, nowhere, nowhere, nowhere, nowhere, none, none, none, none, idle};
+  std::size_t next_ray = 0;
+  for (Lanes& l : lanes) refill(l, hn::FirstN(u, hn::Lanes(u)), rays, next_ray);
+  if (next_ray == 0) return;
+  while (!walk(lanes, rays, next_ray, marks)) marks.flush(masks);
+  marks.flush(masks);
 }
 
 }  // namespace rhmap::HWY_NAMESPACE

@@ -1,18 +1,18 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "rhmap/octree/scan_marking.hpp"
 
-#include <omp.h>
-
 #include <algorithm>
 #include <cmath>
-#include <exception>
 #include <memory>
 #include <optional>
+#include <span>
 #include <unordered_set>
 #include <utility>
 #include <vector>
 
+#include "rhmap/octree/parallel.hpp"
 #include "rhmap/octree/ray.hpp"
+#include "rhmap/octree/ray_start.hpp"
 #include "rhmap/octree/ray_walk.hpp"
 
 namespace rhmap {
@@ -60,55 +60,57 @@ std::optional<PointRay> rayOf(const KeySpace& keys, const point3d& p, const poin
   return ray;
 }
 
-/// Marks part of a scan: one thread's work.
+/// Marks parts of a scan: one thread's work.
 class Marker {
  public:
   Marker(const KeySpace& keys, const point3d& origin, const ScanMarkingConfig& config, ScanMasks masks)
-      : keys_(keys), origin_(origin), config_(config), batch_(std::make_unique<RayBatch>()), masks_(std::move(masks)) {}
+      : keys_(keys), origin_(origin), config_(config), masks_(std::move(masks)) {}
 
-  void add(const point3d& p) {
-    ++counts_.points;
-    const std::optional<PointRay> ray = rayOf(keys_, p, origin_, config_);
-    if (!ray) {
-      ++counts_.not_finite;
+  void add(std::span<const point3d> points) {
+    counts_.points += points.size();
+    if (config_.box != nullptr) {
+      for (const point3d& p : points) addInBox(p, *config_.box);
       return;
     }
-    const bool crossed = config_.box == nullptr ? free(ray->end) : freeInBox(ray->end, *config_.box);
-    if (!crossed) ++counts_.outside;
-    if (ray->hit) masks_.markHit(*ray->hit);
-  }
-
-  void finish() {
-    walkRays(*batch_, masks_);
-    batch_->clear();
+    while (!points.empty()) {
+      const auto next = points.first(std::min(points.size(), batch_->room()));
+      points = points.subspan(next.size());
+      const RayCounts counts = startRays(start_, next, *batch_, *hits_);
+      counts_.not_finite += counts.not_finite;
+      counts_.outside += counts.outside;
+      for (std::size_t i = 0; i < hits_->size; ++i) masks_.markHit(hits_->cell[i]);
+      hits_->size = 0;
+      if (!points.empty() && batch_->room() > RayBatch::kCapacity / 4) continue;  // many rays keep the lanes busy
+      walkRays(*batch_, masks_);
+      batch_->clear();
+    }
   }
 
   ScanMasks& masks() { return masks_; }
   const ScanCounts& counts() const { return counts_; }
 
  private:
-  bool free(const point3d& end) {
-    RaySegment ray;
-    const RayStart start = startSegment(keys_, origin_, end, ray);
-    if (start == RayStart::kRay) {
-      batch_->add(ray);
-      if (batch_->full()) finish();
+  void addInBox(const point3d& p, const KeyBox& box) {
+    const std::optional<PointRay> ray = rayOf(keys_, p, origin_, config_);
+    if (!ray) {
+      ++counts_.not_finite;
+      return;
     }
-    return start != RayStart::kOutside;
-  }
-
-  bool freeInBox(const point3d& end, const KeyBox& box) {
     bool inside = true;
-    return forEachRayKey(keys_, origin_, end, [&](const OcTreeKey& key) {
+    const bool crossed = forEachRayKey(keys_, origin_, ray->end, [&](const OcTreeKey& key) {
       inside = inside && box.contains(key);
       if (inside) masks_.markFree(key);
     });
+    if (!crossed) ++counts_.outside;
+    if (ray->hit) masks_.markHit(*ray->hit);
   }
 
   const KeySpace& keys_;
   const point3d& origin_;
   const ScanMarkingConfig& config_;
-  std::unique_ptr<RayBatch> batch_;
+  RayOrigin start_{keys_, origin_, config_.max_range};
+  std::unique_ptr<RayBatch> batch_ = std::make_unique_for_overwrite<RayBatch>();
+  std::unique_ptr<HitCells> hits_ = std::make_unique_for_overwrite<HitCells>();
   ScanMasks masks_;
   ScanCounts counts_;
 };
@@ -117,33 +119,27 @@ class Marker {
 
 ScanMasks markScan(const KeySpace& keys, const octomap::Pointcloud& scan, const point3d& origin,
                    const ScanMarkingConfig& config, ScanCounts& counts) {
-  const auto parts = static_cast<std::size_t>(config.num_threads < 1 ? 1 : config.num_threads);
-  std::vector<Marker> markers;
-  markers.reserve(parts);
+  constexpr std::size_t kPart = 4096;  // points that a thread takes at a time: some are much longer than others
+  const std::span<const point3d> points(scan.size() == 0 ? nullptr : &scan[0], scan.size());
+  const std::size_t parts = (points.size() + kPart - 1) / kPart;
+  const std::size_t threads =
+      std::clamp(parts, std::size_t{1}, static_cast<std::size_t>(std::max(config.num_threads, 1)));
   const auto reach = reachOf(keys, scan, origin, config.max_range);
-  for (std::size_t i = 0; i < parts; ++i)
+  std::vector<Marker> markers;
+  markers.reserve(threads);
+  for (std::size_t i = 0; i < threads; ++i)
     markers.emplace_back(keys, origin, config, reach ? ScanMasks(reach->first, reach->second) : ScanMasks());
 
-  std::exception_ptr error;
-#pragma omp parallel for num_threads(static_cast <int>(parts)) if (parts > 1)
-  for (std::size_t part = 0; part < parts; ++part) {
-    try {
-      for (std::size_t i = scan.size() * part / parts; i < scan.size() * (part + 1) / parts; ++i)
-        markers[part].add(scan[static_cast<unsigned>(i)]);
-      markers[part].finish();
-    } catch (...) {
-#pragma omp critical(rhmap_mark_scan)
-      error = std::current_exception();
-    }
-  }
-  if (error) std::rethrow_exception(error);
+  forEachPart(parts, threads, [&](std::size_t part, std::size_t thread) {
+    markers[thread].add(points.subspan(part * kPart, std::min(kPart, points.size() - part * kPart)));
+  });
 
   for (const Marker& marker : markers) {
     counts.points += marker.counts().points;
     counts.not_finite += marker.counts().not_finite;
     counts.outside += marker.counts().outside;
   }
-  for (std::size_t i = 1; i < parts; ++i) markers[0].masks().merge(markers[i].masks());
+  for (std::size_t i = 1; i < threads; ++i) markers[0].masks().merge(markers[i].masks());
   return std::move(markers[0].masks());
 }
 

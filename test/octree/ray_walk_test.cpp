@@ -2,7 +2,6 @@
 #include "rhmap/octree/ray_walk.hpp"
 
 #include <gtest/gtest.h>
-#include <hwy/targets.h>
 
 #include <algorithm>
 #include <limits>
@@ -13,6 +12,7 @@
 #include "oracle.hpp"
 #include "rhmap/octree/octree.hpp"
 #include "rhmap/octree/scan_marking.hpp"
+#include "targets.hpp"
 
 namespace rhmap {
 namespace {
@@ -61,11 +61,7 @@ octomap::Pointcloud difficultEnds(const point3d& origin, double resolution, std:
   return ends;
 }
 
-class RayWalkOn : public testing::TestWithParam<std::int64_t> {
- protected:
-  void SetUp() override { hwy::SetSupportedTargetsForTest(GetParam()); }
-  void TearDown() override { hwy::SetSupportedTargetsForTest(0); }
-};
+class RayWalkOn : public test::OnTarget {};
 
 TEST_P(RayWalkOn, MarksTheCellsOfOctomapsComputeUpdate) {
   std::mt19937 random(3);
@@ -114,14 +110,7 @@ TEST_P(RayWalkOn, WalksBatchesOfEverySizeToTheEnd) {
   }
 }
 
-std::vector<std::int64_t> targetsHere() {
-  std::vector<std::int64_t> targets;
-  for (std::int64_t rest = hwy::SupportedTargets() & HWY_TARGETS; rest != 0; rest &= rest - 1)
-    targets.push_back(rest & -rest);
-  return targets;
-}
-INSTANTIATE_TEST_SUITE_P(Targets, RayWalkOn, testing::ValuesIn(targetsHere()),
-                         [](const auto& info) { return hwy::TargetName(info.param); });
+INSTANTIATE_TEST_SUITE_P(Targets, RayWalkOn, testing::ValuesIn(test::targetsHere()), test::targetName);
 
 TEST(RayKeys, AreOctomapsAlsoWhereARayMeetsEdgesAndCorners) {
   std::mt19937 random(8);

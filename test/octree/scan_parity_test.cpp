@@ -16,6 +16,7 @@
 #include "oracle.hpp"
 #include "rhmap/io/scan_sequence.hpp"
 #include "rhmap/octree/octree.hpp"
+#include "targets.hpp"
 
 namespace rhmap {
 namespace {
@@ -112,6 +113,27 @@ TEST_P(ClipSequenceParity, AllScansOneAfterTheOtherGiveOctomapsMap) {
 INSTANTIATE_TEST_SUITE_P(Settings, ClipSequenceParity,
                          testing::Values(Setting{0.2, 30, false, false}, Setting{0.5, -1, false, false},
                                          Setting{0.5, 50, true, false}, Setting{0.5, 50, false, true}));
+
+class ClipOn : public test::OnTarget {};
+
+TEST_P(ClipOn, GivesTheSameMapOnEveryInstructionSetWithAnyNumberOfThreads) {
+  const auto clip = io::openSequence(test::clipFolder());
+  const auto bytes = [&](int threads) {
+    OcTree map(0.2);
+    map.setNumThreads(threads);
+    for (std::size_t i = 0; i < 3; ++i) {
+      const io::Scan scan = clip->scan(10 * i);
+      map.insertPointCloud(scan.points, scan.pose.trans(), scan.pose, 50);
+    }
+    return test::otBytes(map);
+  };
+  const std::string expected = bytes(1);
+  EXPECT_TRUE(bytes(2) == expected);
+  EXPECT_TRUE(bytes(5) == expected);
+  hwy::SetSupportedTargetsForTest(0);  // as without this test: the widest
+  EXPECT_TRUE(bytes(1) == expected);
+}
+INSTANTIATE_TEST_SUITE_P(Targets, ClipOn, testing::ValuesIn(test::targetsHere()), test::targetName);
 
 TEST(SphericalScan, GivesOctomapsMapAtEverySetting) {
   const auto graph = io::openSequence(std::string(RHMAP_DATA_DIR) + "/maps/spherical_scan.graph");

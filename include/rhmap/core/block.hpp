@@ -2,7 +2,9 @@
 #pragma once
 
 #include <array>
+#include <bit>
 #include <cstdint>
+#include <cstring>
 
 #include "rhmap/core/key.hpp"
 
@@ -13,7 +15,7 @@ namespace rhmap {
 /// 63 hold the cells, 64 ... 71 the middle nodes, 72 the top nodes. Hence the whole of the tree's structure:
 ///   - the children of slot s >= 512 are octet s - 512 of the same block;
 ///   - the children of a cell are octet 72 of the block of the next level that lies under the cell.
-inline constexpr int kCells = 512;
+inline constexpr int kCells = kCellsInBlock;
 inline constexpr int kMiddleSlot = 512;
 inline constexpr int kTopSlot = 576;
 inline constexpr int kSlots = 584;
@@ -63,6 +65,20 @@ struct alignas(128) Block {
   }
 };
 static_assert(sizeof(Block) == 384);
+
+/// The masks of eight octets, the first in the lowest byte.
+inline std::uint64_t masksFrom(const Block& block, int first_octet) {
+  std::uint64_t word;
+  std::memcpy(&word, block.mask.data() + first_octet, sizeof word);
+  if constexpr (std::endian::native == std::endian::big) word = __builtin_bswap64(word);
+  return word;
+}
+
+/// Bit 7 of each byte that is not 0.
+constexpr std::uint64_t nonzeroBytes(std::uint64_t bytes) {
+  constexpr std::uint64_t kLow = 0x7f7f'7f7f'7f7f'7f7f;
+  return (((bytes & kLow) + kLow) | bytes) & ~kLow;
+}
 
 /// Level of the block with this blockKey().
 inline int blockLevel(std::uint64_t block_key) { return static_cast<int>(block_key >> 39); }

@@ -25,7 +25,7 @@ class BlockIndex {
 
   /// Adds a key that is not there yet.
   void insert(std::uint64_t key, T* value) {
-    if ((size_ + 1) * 4 > entries_.size() * 3) grow();
+    if ((size_ + 1) * 2 > entries_.size()) grow();  // half empty: looking in vain ends soon, too
     place({key, value});
     ++size_;
   }
@@ -60,6 +60,14 @@ class BlockIndex {
   void forEach(F&& visit) const {
     for (const Entry& e : entries_)
       if (e.value != nullptr) visit(*e.value);
+  }
+
+  /// True if `holds` does for all.
+  template <class F>
+  bool all(F&& holds) const {
+    for (const Entry& e : entries_)
+      if (e.value != nullptr && !holds(*e.value)) return false;
+    return true;
   }
 
  private:

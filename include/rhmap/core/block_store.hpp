@@ -1,18 +1,22 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <algorithm>
 #include <bit>
 #include <cstddef>
 #include <cstdint>
 #include <new>
 #include <type_traits>
 #include <utility>
+#include <vector>
 
 #include "rhmap/core/block.hpp"
 #include "rhmap/core/block_index.hpp"
 #include "rhmap/core/block_journal.hpp"
 #include "rhmap/core/block_pool.hpp"
+#include "rhmap/core/block_search.hpp"
 #include "rhmap/core/octet_pool.hpp"
+#include "rhmap/core/region_editor.hpp"
 #include "rhmap/core/trunk.hpp"
 
 namespace rhmap {
@@ -57,23 +61,27 @@ class BlockStore {
 
   /// The node at `depth` around `key`, or the shallower leaf that contains it; empty if unknown.
   NodeRef search(const OcTreeKey& key, unsigned depth = kTreeDepth) const {
-    const int level = static_cast<int>(depth + 1) / 3;
-    for (int l = level; l >= 0; --l) {
-      Block* block = findBlock(key, l);
-      if (block == nullptr) continue;
-      // A cell of an upper block whose own block was not found has no children: it is what contains the node.
-      const int cell = cellIndex(key, l);
-      return searchIn(block, l == level ? slotAbove(cell, static_cast<int>(depth) - 3 * level) : cell);
+    if (depth == kTreeDepth) {
+      if (Block* region = findRegion(key)) return searchCell(region, cellIndex(key, kRegionLevel)).node;
+      return searchAbove(key, kRegionLevel).node;
     }
-    return {};
+    const int level = static_cast<int>(depth + 1) / 3;
+    Block* block = findBlock(key, level);
+    if (block == nullptr) return searchAbove(key, level).node;
+    return searchIn(block, slotAbove(cellIndex(key, level), static_cast<int>(depth) - 3 * level));
   }
 
-  /// The node in a slot, or the leaf of the same block that contains it; empty if unknown.
-  static NodeRef searchIn(Block* block, int slot) {
-    if (block->has(slot)) return {block, slot};
-    for (slot = parentSlot(slot >> 3); slot < kSlots; slot = parentSlot(slot >> 3))
-      if (block->has(slot)) return block->mask[childOctet(slot)] == 0 ? NodeRef{block, slot} : NodeRef{};
-    return {};
+  /// searchCell() where there is no block of this level.
+  Found searchAbove(const OcTreeKey& key, int level) const {
+    while (--level >= 0) {
+      Block* block = findBlock(key, level);
+      if (block == nullptr) continue;
+      // A cell whose own block was not found has no children: it is what contains the key.
+      Found found = searchCell(block, cellIndex(key, level));
+      found.bits = std::min(found.bits + cellShift(level), static_cast<int>(kTreeDepth));  // above the root is nothing
+      return found;
+    }
+    return {{}, static_cast<int>(kTreeDepth)};
   }
 
   /// The deepest existing node on the way to `key`; empty in an empty tree.
@@ -215,6 +223,23 @@ class BlockStore {
     return {block, number};
   }
 
+  /// Makes the block below a childless cell of an upper block; the caller makes nodes in it at once.
+  Block* createBlockBelow(NodeRef cell) { return createBlock(cell.corner(), cell.block->level + 1, cell.block); }
+
+  /// Editors for as many threads, which will work on no more than `regions` regions.
+  std::vector<RegionEditor<NODE>> editors(std::size_t threads, std::size_t regions) {
+    std::vector<RegionEditor<NODE>> editors;
+    for (auto& source : nodes_.reserve(threads, regions * kOctets)) editors.emplace_back(nodes_, source);
+    return editors;
+  }
+  /// For one thread.
+  RegionEditor<NODE> editor() { return {nodes_, nodes_.source()}; }
+  /// Takes over what an editor has done; the caller calls touch() for the regions that it has changed.
+  void takeOver(const RegionEditor<NODE>& editor) {
+    size_ += static_cast<std::size_t>(editor.made());
+    ++version_;
+  }
+
   /// Removes a node without children.
   void remove(NodeRef r) { removeNodes(r.block, r.slot >> 3, static_cast<std::uint8_t>(1U << (r.slot & 7))); }
 
@@ -272,6 +297,17 @@ class BlockStore {
     size_ = other.size_;
   }
 
+  /// The same nodes, with equal values.
+  bool operator==(const BlockStore& other) const {
+    return size_ == other.size_ && index_.all([&](const Block& a) {
+      const Block* b = other.findBlock(blockKey(a.corner, a.level));
+      if (b == nullptr || a.mask != b->mask) return false;
+      for (int o = 0; o < kOctets; ++o)
+        if (a.mask[o] != 0 && !equal(octet(&a, o), other.octet(b, o).nodes)) return false;
+      return true;
+    });
+  }
+
   // --- being observed ---
 
   /// To be called where values of existing nodes change; making and removing nodes calls it by itself.
@@ -308,6 +344,13 @@ class BlockStore {
     if constexpr (!std::is_trivially_destructible_v<NODE>)
       for (unsigned i = 0; i < 8; ++i)
         if (o.has(i)) o.nodes[i].~NODE();
+  }
+
+  static bool equal(const Octet<NODE>& a, const NODE* b) {
+    bool equal = true;
+    for (unsigned rest = a.mask; rest != 0; rest &= rest - 1)
+      equal = equal && a.nodes[std::countr_zero(rest)] == b[std::countr_zero(rest)];
+    return equal;
   }
 
   NodeRef create(Block* block, int slot) {

@@ -4,6 +4,8 @@
 #include <cstddef>
 #include <cstdint>
 
+#include "rhmap/core/large_piece.hpp"
+
 namespace rhmap {
 
 /// What all nodes have in common: a name, under which they are handed about.
@@ -31,7 +33,7 @@ class NodeChildren {
 
 /// Slabs are the aligned pieces of memory that nodes live in. All of this size, so that any address inside one tells
 /// where it begins.
-inline constexpr std::size_t kSlabBytes = std::size_t{1} << 20;
+inline constexpr std::size_t kSlabBytes = kLargePieceBytes;
 
 /// What stands at the beginning of every slab.
 struct SlabHeader {

@@ -7,7 +7,9 @@
 #include <cstdint>
 #include <cstring>
 #include <limits>
+#include <mutex>
 #include <new>
+#include <span>
 #include <stdexcept>
 #include <vector>
 
@@ -23,6 +25,8 @@ namespace rhmap {
 /// Octets of depth-16 leaves have no children and hence no owner: 8 nodes and nothing else.
 template <class NODE>
 class OctetPool {
+  static constexpr OctetRef kNone = std::numeric_limits<OctetRef>::max();
+
  public:
   /// Of a store whose nodes are asked for their children by `children`.
   explicit OctetPool(const void* store = nullptr, NodeChildren (*children)(const void*, const void*) = nullptr)
@@ -31,24 +35,48 @@ class OctetPool {
   OctetPool& operator=(const OctetPool&) = delete;
   ~OctetPool() { clear(); }
 
+  /// Octets of one kind that are there to be handed out: the rest of a slab, and what was released.
+  struct Stock {
+    OctetRef next = 0;
+    OctetRef left = 0;
+    OctetRef released = kNone;
+  };
+  /// Where one thread takes octets from and puts them back. Several threads may work with one pool, each with a source
+  /// of its own, after reserve().
+  struct alignas(64) Source {
+    Stock leaves, inner;
+  };
+
+  /// Sources for this number of threads, which will not take more than `octets` together. The first is the one for work
+  /// in a single thread.
+  std::span<Source> reserve(std::size_t threads, std::size_t octets) {
+    if (sources_.size() < threads) sources_.resize(threads);
+    slabs_.reserve(slabs_.size() + 2 * threads + octets / kInnerCapacity + 1);  // so that it stays where it is
+    return {sources_.data(), threads};
+  }
+  Source& source() { return sources_.front(); }
+
   /// Raw memory for eight depth-16 leaves.
-  OctetRef allocateLeaves() { return allocate(leaves_); }
+  OctetRef allocateLeaves(Source& source) { return allocate(source.leaves, false); }
+  OctetRef allocateLeaves() { return allocateLeaves(source()); }
 
   /// Raw memory for eight nodes that may have children, being octet `number` of `block`.
-  OctetRef allocateInner(Block* block, int number) {
-    const OctetRef ref = allocate(inner_);
+  OctetRef allocateInner(Source& source, Block* block, int number) {
+    const OctetRef ref = allocate(source.inner, true);
     std::memset(static_cast<void*>(nodes(ref)), 0, kOctetBytes);  // Trunk compares octets whole
     owner(slabs_[ref >> kIndexBits], ref & kIndexMask) =
         reinterpret_cast<std::uintptr_t>(block) | static_cast<std::uintptr_t>(number);
     return ref;
   }
+  OctetRef allocateInner(Block* block, int number) { return allocateInner(source(), block, number); }
 
   /// Gives the memory back; the nodes must have been destroyed.
-  void release(OctetRef ref) {
-    Kind& kind = slabs_[ref >> kIndexBits]->inner ? inner_ : leaves_;
-    std::memcpy(static_cast<void*>(nodes(ref)), &kind.free_list, sizeof kind.free_list);
-    kind.free_list = ref;
+  void release(Source& source, OctetRef ref) {
+    Stock& stock = slabs_[ref >> kIndexBits]->inner ? source.inner : source.leaves;
+    std::memcpy(static_cast<void*>(nodes(ref)), &stock.released, sizeof stock.released);
+    stock.released = ref;
   }
+  void release(OctetRef ref) { release(source(), ref); }
 
   NODE* nodes(OctetRef ref) const {
     return reinterpret_cast<NODE*>(reinterpret_cast<char*>(slabs_[ref >> kIndexBits]) + kHeaderBytes) +
@@ -69,40 +97,29 @@ class OctetPool {
   void clear() {
     for (SlabHeader* slab : slabs_) {
       removeSlab(slab);
-      ::operator delete (slab, std::align_val_t{kSlabBytes});
+      freeLargePiece(slab);
     }
     slabs_ = decltype(slabs_)();
-    leaves_ = Kind{false};
-    inner_ = Kind{true};
+    sources_ = std::vector<Source>(1);
   }
 
   /// Bytes in use: what was ever handed out (released octets are kept for reuse).
   std::size_t memoryUsage() const {
-    const auto used = [](const Kind& kind, std::size_t octet_bytes) {
-      const std::size_t full = kind.slabs > 0 ? kind.slabs - 1 : 0;
-      return (full * kind.capacity() + kind.next) * octet_bytes + kind.slabs * kHeaderBytes;
-    };
-    return used(leaves_, kOctetBytes) + used(inner_, kOctetBytes + sizeof(std::uintptr_t));
+    std::size_t bytes = 0;
+    for (const SlabHeader* slab : slabs_)
+      bytes += kHeaderBytes + (slab->inner ? kInnerCapacity * kInnerBytes : kLeafCapacity * kOctetBytes);
+    for (const Source& source : sources_) bytes -= source.leaves.left * kOctetBytes + source.inner.left * kInnerBytes;
+    return bytes;
   }
 
  private:
   static constexpr std::size_t kOctetBytes = 8 * sizeof(NODE);
   static constexpr std::size_t kHeaderBytes = std::max<std::size_t>(64, alignof(NODE));
   static constexpr OctetRef kLeafCapacity = (kSlabBytes - kHeaderBytes) / kOctetBytes;
-  static constexpr OctetRef kInnerCapacity = (kSlabBytes - kHeaderBytes) / (kOctetBytes + sizeof(std::uintptr_t));
+  static constexpr std::size_t kInnerBytes = kOctetBytes + sizeof(std::uintptr_t);
+  static constexpr OctetRef kInnerCapacity = (kSlabBytes - kHeaderBytes) / kInnerBytes;
   static constexpr int kIndexBits = std::bit_width(kLeafCapacity - 1);
   static constexpr OctetRef kIndexMask = (OctetRef{1} << kIndexBits) - 1;
-  static constexpr OctetRef kNone = std::numeric_limits<OctetRef>::max();
-
-  /// One of the two kinds of octets: its newest slab, filled up to `next`, and what was released.
-  struct Kind {
-    bool inner;
-    OctetRef current = 0;
-    OctetRef next = 0;
-    std::size_t slabs = 0;
-    OctetRef free_list = kNone;
-    OctetRef capacity() const { return inner ? kInnerCapacity : kLeafCapacity; }
-  };
 
   static_assert(kInnerCapacity >= 8, "a node type of many kilobytes: keep such data outside of the nodes");
   static_assert(sizeof(SlabHeader) <= kHeaderBytes);
@@ -115,30 +132,33 @@ class OctetPool {
     return reinterpret_cast<std::uintptr_t*>(start + offset)[index];
   }
 
-  OctetRef allocate(Kind& kind) {
-    if (kind.free_list != kNone) {
-      const OctetRef ref = kind.free_list;
-      std::memcpy(&kind.free_list, static_cast<const void*>(nodes(ref)), sizeof kind.free_list);
+  OctetRef allocate(Stock& stock, bool inner) {
+    if (stock.released != kNone) {
+      const OctetRef ref = stock.released;
+      std::memcpy(&stock.released, static_cast<const void*>(nodes(ref)), sizeof stock.released);
       return ref;
     }
-    if (kind.slabs == 0 || kind.next == kind.capacity()) {
-      if (slabs_.size() > (kNone >> kIndexBits) - 1) throw std::length_error("rhmap: more than 2^32 octets in one map");
-      slabs_.reserve(slabs_.size() + 1);
-      slabs_.push_back(newSlab(kind.inner));
-      kind.current = static_cast<OctetRef>(slabs_.size() - 1);
-      kind.next = 0;
-      ++kind.slabs;
-    }
-    return kind.current << kIndexBits | kind.next++;
+    if (stock.left == 0) refill(stock, inner);
+    --stock.left;
+    return stock.next++;
+  }
+
+  void refill(Stock& stock, bool inner) {
+    const std::lock_guard lock(mutex_);  // once for many thousands of octets
+    if (slabs_.size() > (kNone >> kIndexBits) - 1) throw std::length_error("rhmap: more than 2^32 octets in one map");
+    slabs_.reserve(slabs_.size() + 1);
+    slabs_.push_back(newSlab(inner));
+    stock.next = static_cast<OctetRef>(slabs_.size() - 1) << kIndexBits;
+    stock.left = inner ? kInnerCapacity : kLeafCapacity;
   }
 
   SlabHeader* newSlab(bool inner) {
-    void* memory = ::operator new (kSlabBytes, std::align_val_t{kSlabBytes});
+    void* memory = allocateLargePiece(slabs_.size() >= 2);  // small maps stay small
     auto* slab = new (memory) SlabHeader{inner, store_, children_};
     try {
       addSlab(slab);
     } catch (...) {
-      ::operator delete (memory, std::align_val_t{kSlabBytes});
+      freeLargePiece(memory);
       throw;
     }
     return slab;
@@ -147,8 +167,8 @@ class OctetPool {
   const void* store_;
   NodeChildren (*children_)(const void*, const void*);
   std::vector<SlabHeader*> slabs_;
-  Kind leaves_{false};
-  Kind inner_{true};
+  std::vector<Source> sources_ = std::vector<Source>(1);
+  std::mutex mutex_;
 };
 
 }  // namespace rhmap

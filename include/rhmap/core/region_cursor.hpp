@@ -20,18 +20,22 @@ class RegionCursor {
     if (const std::uint64_t name = blockKey(key, kRegionLevel); name != name_) {
       name_ = name;
       region_ = store_.findRegion(key);
-      if (region_ == nullptr) whole_ = nodeOrNull(store_.search(key, kTreeDepth - 3));
+      if (region_ == nullptr) whole_ = store_.searchAbove(key, kRegionLevel);
     }
-    return region_ == nullptr ? whole_ : nodeOrNull(store_.searchIn(region_, cellIndex(key, kRegionLevel)));
+    const auto found = region_ == nullptr ? whole_ : searchCell(region_, cellIndex(key, kRegionLevel));
+    bits_ = found.bits;
+    return found.node ? store_.node(found.node) : nullptr;
   }
 
- private:
-  const NODE* nodeOrNull(NodeRef at) const { return at ? store_.node(at) : nullptr; }
+  /// The cube of 2^bits cells an edge around the last key in which every search finds the same.
+  int bits() const { return bits_; }
 
+ private:
   const BlockStore<NODE>& store_;
   std::uint64_t name_ = std::numeric_limits<std::uint64_t>::max();
-  Block* region_ = nullptr;      // null: there is none here, and
-  const NODE* whole_ = nullptr;  // this leaf, or nothing, stands for all its cells
+  Block* region_ = nullptr;  // null: there is none here, and
+  Found whole_{};            // this holds for all its cells
+  int bits_ = 0;
 };
 
 }  // namespace rhmap

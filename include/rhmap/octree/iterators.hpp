@@ -5,6 +5,7 @@
 #include <cstddef>
 #include <iterator>
 
+#include "rhmap/core/leaf_walk.hpp"
 #include "rhmap/octree/key_space.hpp"
 
 namespace rhmap {
@@ -26,16 +27,19 @@ class OcTreeIteratorBase {
   /// At the root; nodes at `max_depth` are not entered (0: the whole tree).
   OcTreeIteratorBase(const TREE* tree, unsigned max_depth)
       : tree_(tree), max_depth_(max_depth == 0 || max_depth > kTreeDepth ? kTreeDepth : max_depth) {
-    if (tree_ != nullptr) at_ = tree_->store().root();
-    if (!at_) *this = {};
+    if (tree_ != nullptr && tree_->store().root()) {
+      moveTo(tree_->store().root());
+    } else {
+      *this = {};
+    }
   }
 
   bool operator==(const OcTreeIteratorBase& other) const { return tree_ == other.tree_ && at_ == other.at_; }
 
-  const NodeType* operator->() const { return tree_->store().node(at_); }
-  NodeType* operator->() { return tree_->store().node(at_); }
-  const NodeType& operator*() const { return *tree_->store().node(at_); }
-  NodeType& operator*() { return *tree_->store().node(at_); }
+  const NodeType* operator->() const { return octet_ + at_.sibling(); }
+  NodeType* operator->() { return octet_ + at_.sibling(); }
+  const NodeType& operator*() const { return octet_[at_.sibling()]; }
+  NodeType& operator*() { return octet_[at_.sibling()]; }
 
   /// Centre of the node [m].
   point3d getCoordinate() const { return tree_->keySpace().keyToCoord(getKey(), getDepth()); }
@@ -60,7 +64,8 @@ class OcTreeIteratorBase {
   bool enter(Accept&& accept) {
     if (getDepth() >= max_depth_) return false;
     const NodeRef octet = tree_->store().childOctetOf(at_);
-    return octet && takeFirst(octet, octet.block->mask[octet.slot], accept);
+    if (!octet) return false;
+    return takeFirst(octet, octet.block->mask[octet.slot], accept);
   }
 
   /// To the next accepted node that is not below this one; to the end if there is none.
@@ -76,8 +81,34 @@ class OcTreeIteratorBase {
     *this = {};
   }
 
+  /// From a node at depth 13 into its region, if it has one whose leaves are wanted.
+  bool enterRegion() {
+    if (at_.block->level != kRegionLevel - 1 || at_.slot >= kCells || max_depth_ != kTreeDepth) return false;
+    const NodeRef octet = tree_->store().childOctetOf(at_);
+    if (!octet) return false;
+    at_.block = octet.block;
+    walk_ = LeafWalk(*octet.block);
+    return nextInRegion();
+  }
+
+  /// To the next leaf of the region that was entered. If there is none any more: false, and passBy() goes on behind it.
+  bool nextInRegion() {
+    const int slot = walk_.next();
+    if (slot < 0) return false;
+    at_.slot = slot;
+    octet_ = tree_->store().octet(at_.block, slot >> 3).nodes;
+    return true;
+  }
+
+  void moveTo(NodeRef node) {
+    at_ = node;
+    octet_ = tree_->store().octet(node.block, node.slot >> 3).nodes;
+  }
+
   const TREE* tree_ = nullptr;
   NodeRef at_;
+  NodeType* octet_ = nullptr;  // where the node and its siblings are
+  LeafWalk walk_;              // in a region that was entered as a whole
   unsigned max_depth_ = 0;
 
  private:
@@ -86,7 +117,7 @@ class OcTreeIteratorBase {
     for (; mask != 0; mask &= mask - 1) {
       const NodeRef child{octet.block, octet.slot * 8 + std::countr_zero(mask)};
       if (!accept(child)) continue;
-      at_ = child;
+      moveTo(child);
       return true;
     }
     return false;
@@ -126,7 +157,7 @@ class OcTreeLeafIterator : public OcTreeIteratorBase<TREE> {
   explicit OcTreeLeafIterator(const TREE* tree, unsigned max_depth = 0) : Base(tree, max_depth) { descend(); }
 
   OcTreeLeafIterator& operator++() {
-    if (this->tree_ == nullptr) return *this;
+    if (this->tree_ == nullptr || this->nextInRegion()) return *this;
     this->passBy(Base::everything);
     descend();
     return *this;
@@ -140,7 +171,7 @@ class OcTreeLeafIterator : public OcTreeIteratorBase<TREE> {
  private:
   void descend() {
     if (this->tree_ == nullptr) return;
-    while (this->enter(Base::everything)) {
+    while (!this->enterRegion() && this->enter(Base::everything)) {
     }
   }
 };
@@ -169,7 +200,7 @@ class OcTreeLeafBbxIterator : public OcTreeIteratorBase<TREE> {
   }
 
   OcTreeLeafBbxIterator& operator++() {
-    if (this->tree_ == nullptr) return *this;
+    if (this->tree_ == nullptr || this->nextInRegion()) return *this;
     this->passBy(overlap());
     descend();
     return *this;
@@ -181,6 +212,15 @@ class OcTreeLeafBbxIterator : public OcTreeIteratorBase<TREE> {
   }
 
  private:
+  /// All cells of the node touch the box.
+  bool isInside() const {
+    const OcTreeKey corner = this->at_.corner();
+    const int last = (1 << (kTreeDepth - this->getDepth())) - 1;
+    for (unsigned i = 0; i < 3; ++i)
+      if (min_[i] > corner[i] || max_[i] < corner[i] + last) return false;
+    return true;
+  }
+
   auto overlap() const {
     return [this](NodeRef child) {
       const unsigned depth = child.depth();
@@ -194,7 +234,7 @@ class OcTreeLeafBbxIterator : public OcTreeIteratorBase<TREE> {
 
   /// To the next leaf from here on: an inner node without an accepted child is passed by.
   void descend() {
-    while (this->tree_ != nullptr && !this->atLeaf())
+    while (this->tree_ != nullptr && !(isInside() && this->enterRegion()) && !this->atLeaf())
       if (!this->enter(overlap())) this->passBy(overlap());
   }
 

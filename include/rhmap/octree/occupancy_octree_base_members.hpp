@@ -3,6 +3,8 @@
 
 // Members of OccupancyOcTreeBase that are more than a line or two; included by occupancy_octree_base.hpp.
 
+#include <limits>
+
 #include "rhmap/core/region_cursor.hpp"
 #include "rhmap/octree/map_codec.hpp"
 #include "rhmap/octree/occupancy_octree_base.hpp"
@@ -32,8 +34,7 @@ void OccupancyOcTreeBase<NODE>::insertPointCloud(const Pointcloud& scan, const p
     marks.forEachCell([&](const OcTreeKey& key, bool occupied) { updateNode(key, occupied, lazy_eval); });
     return;
   }
-  ScanApplier<NODE> applier(*this->store_, sensorModel(), lazy_eval);
-  marks.forEachRegion([&](const RegionMasks& region) { applier.apply(region); });
+  ScanApplier<NODE>(*this->store_, sensorModel(), lazy_eval).apply(marks, num_threads_);
 }
 
 template <class NODE>
@@ -269,14 +270,12 @@ bool OccupancyOcTreeBase<NODE>::castRay(const point3d& origin, const point3d& di
     return hit;
   };
   // A cell's centre is no farther from where the ray enters than a diagonal: up to here the range needs no test.
-  const double certainly_within = maxRange - (2 * this->getResolution() + 1e-5 * maxRange);
+  const double certainly_within = maxRange > 0.0 ? maxRange - (2 * this->getResolution() + 1e-5 * maxRange)
+                                                 : std::numeric_limits<double>::infinity();
   for (;;) {
-    const int axis = ray->nextAxis();
-    const key_type k = ray->key[static_cast<unsigned>(axis)];
-    if (ray->step[axis] < 0 ? k == 0 : k == 2 * kTreeMaxVal - 1) return stop(false);  // the border of the key space
-    const double entry = ray->t_max[axis];
-    ray->advance(axis);
-    if (maxRange > 0.0 && entry > certainly_within && beyond(this->keyToCoord(ray->key))) return stop(false);
+    const RayEntry entry = leaveCube(*ray, cursor.bits(), certainly_within);
+    if (!entry.in_space) return stop(false);
+    if (entry.distance > certainly_within && beyond(this->keyToCoord(ray->key))) return stop(false);
     const NODE* node = cursor.search(ray->key);
     if (node == nullptr ? !ignoreUnknown : this->isNodeOccupied(node)) return stop(node != nullptr);
   }
@@ -306,7 +305,8 @@ std::istream& OccupancyOcTreeBase<NODE>::readBinaryNode(std::istream& s, NODE* n
     return s;
   }
   try {
-    codec::readBits(*this->store_, at, this->clamping_thres_min, this->clamping_thres_max, s);
+    codec::ByteReader in(s);
+    codec::readBits(*this->store_, at, this->clamping_thres_min, this->clamping_thres_max, in);
   } catch (const std::runtime_error&) {
     structure::removeBelow(*this->store_, at);
     s.setstate(std::ios::failbit);

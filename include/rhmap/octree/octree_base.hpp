@@ -56,12 +56,7 @@ class OcTreeBaseImpl : public INTERFACE {
 
   /// Same resolution, same nodes, same values, inner nodes included.
   bool operator==(const OcTreeBaseImpl& other) const {
-    if (getResolution() != other.getResolution() || size() != other.size()) return false;
-    auto b = other.begin_tree();
-    for (auto a = begin_tree(), end = end_tree(); a != end; ++a, ++b)
-      if (b == other.end_tree() || a.getDepth() != b.getDepth() || a.getKey() != b.getKey() || !(*a == *b))
-        return false;
-    return b == other.end_tree();
+    return getResolution() == other.getResolution() && *store_ == *other.store_;
   }
 
   std::string getTreeType() const override { return "OcTreeBaseImpl"; }

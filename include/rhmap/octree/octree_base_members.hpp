@@ -5,6 +5,7 @@
 
 #include <algorithm>
 
+#include "rhmap/core/leaf_extremes.hpp"
 #include "rhmap/octree/map_codec.hpp"
 #include "rhmap/octree/octree_base.hpp"
 
@@ -18,12 +19,15 @@ auto OcTreeBaseImpl<NODE, INTERFACE>::computeBounds(Upper&& upper) const -> Boun
   if (store_->empty()) return bounds;
   bounds.min.fill(std::numeric_limits<double>::max());
   bounds.max.fill(-std::numeric_limits<double>::max());
-  for (auto it = begin(), last = end(); it != last; ++it) {
-    const double size = it.getSize();
-    const std::array<double, 3> centre{it.getX(), it.getY(), it.getZ()};
-    for (std::size_t i = 0; i < 3; ++i) {
-      bounds.min[i] = std::min(bounds.min[i], centre[i] - size / 2.0);
-      bounds.max[i] = std::max(bounds.max[i], upper(centre[i], size));
+  const LeafExtremes extremes(*store_);
+  for (unsigned depth = 0; depth <= kTreeDepth; ++depth) {
+    if (!extremes.hasLeaves(depth)) continue;
+    const double size = getNodeSize(depth);
+    const OcTreeKey first = centreKey(extremes.min(depth), depth);
+    const OcTreeKey last = centreKey(extremes.max(depth), depth);
+    for (unsigned i = 0; i < 3; ++i) {
+      bounds.min[i] = std::min(bounds.min[i], keyToCoord(first[i], depth) - size / 2.0);
+      bounds.max[i] = std::max(bounds.max[i], upper(keyToCoord(last[i], depth), size));
     }
   }
   return bounds;
@@ -43,7 +47,8 @@ std::istream& OcTreeBaseImpl<NODE, INTERFACE>::readData(std::istream& s) {
     return s;
   }
   try {
-    codec::readValues(*store_, store_->createRoot(), s);
+    codec::ByteReader in(s);
+    codec::readValues(*store_, store_->createRoot(), in);
   } catch (const std::runtime_error&) {
     store_->clear();
     s.setstate(std::ios::failbit);

@@ -1,173 +1,122 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include <array>
-#include <bit>
+#include <algorithm>
+#include <cstddef>
 #include <cstdint>
+#include <span>
+#include <vector>
 
+#include "rhmap/octree/parallel.hpp"
+#include "rhmap/octree/region_update.hpp"
 #include "rhmap/octree/scan_masks.hpp"
 #include "rhmap/octree/structure.hpp"
+#include "rhmap/octree/upward_pass.hpp"
 
 namespace rhmap {
 
-/// The log-odds that an insertion works with.
-struct SensorModel {
-  float hit, miss;  ///< added to a cell that is hit / crossed
-  float clamp_min, clamp_max;
-
-  /// OctoMap's early abort: this update leaves a cell with this value as it is, and does not even expand a pruned leaf.
-  bool settled(float value, float update) const {
-    return (update >= 0 && value >= clamp_max) || (update <= 0 && value <= clamp_min);
-  }
-  float updated(float value, float update) const {
-    value += update;
-    return value < clamp_min ? clamp_min : value > clamp_max ? clamp_max : value;
-  }
-};
-
 /// Puts a marked scan into the map: the same nodes and values as OctoMap's updateNode for every cell, but region by
-/// region, with every inner node of a region visited once.
+/// region, with every node visited once. The map does not depend on the number of threads.
 template <class NODE>
 class ScanApplier {
  public:
   ScanApplier(BlockStore<NODE>& store, const SensorModel& model, bool lazy)
       : store_(store), model_(model), lazy_(lazy) {}
 
-  void apply(const RegionMasks& masks) {
-    for (std::size_t t = 0; t < 8; ++t) {
-      hit_[t] = masks.hit[t];
-      free_[t] = masks.free[t] & ~masks.hit[t];
-    }
-    unsigned fresh = 0;  // octants that are new, as against pruned ones: both have a top node without children
-    Block* region = open(masks.corner(), fresh);
-    if (region == nullptr) return;
-
-    std::array<std::uint8_t, 8> changed{};
-    bool any = false;
-    for (std::size_t t = 0; t < 8; ++t) {
-      changed[t] = applyOctant(*region, t, fresh >> t & 1);
-      any = any || changed[t] != 0;
-    }
-    if (!any) return;
-    store_.touch(region);
-    if (!lazy_) summarise(*region, changed);
+  void apply(const ScanMasks& masks, int num_threads) {
+    // One thread makes the blocks, all update what is in them, one goes up from there.
+    masks.forEachRegion([this](const RegionMasks& marks) { open(marks); });
+    const auto threads = static_cast<std::size_t>(std::max(num_threads, 1));
+    auto editors = store_.editors(threads, regions_.size());
+    forEachPart((regions_.size() + kPart - 1) / kPart, threads, [&](std::size_t part, std::size_t thread) {
+      updatePart(std::span(regions_).subspan(part * kPart).first(std::min(kPart, regions_.size() - part * kPart)),
+                 editors[thread]);
+    });
+    for (const auto& editor : editors) store_.takeOver(editor);
+    close();
   }
 
  private:
-  /// The region with a top node for every marked octant; null if nothing in it would change.
-  Block* open(const OcTreeKey& corner, unsigned& fresh) {
+  static constexpr std::size_t kPart = 256;  // regions that a thread takes at a time
+
+  struct Region {
+    Block* block;
+    const RegionMasks* marks;
+    bool changed;
+  };
+
+  /// Notes a region to update; makes its block if there is none.
+  void open(const RegionMasks& marks) {
+    const OcTreeKey corner = marks.corner();
     Block* region = store_.findRegion(corner);
-    if (region == nullptr) {
-      const NodeRef deepest = store_.deepest(corner);
-      if (deepest && !store_.hasChildren(deepest) && !keepUnsettled(store_.node(deepest)->getLogOdds())) return nullptr;
-      bool new_cell = false;
-      const NodeRef cell = structure::reach(store_, deepest, corner, kTreeDepth - 3, new_cell,
-                                            [this](NodeRef at) { structure::expand(store_, at); });
-      if (new_cell) {
-        fresh = markedOctants();
-        return store_.createChildren(cell, static_cast<std::uint8_t>(fresh)).block;
+    if (region == nullptr) region = make(marks, corner);
+    if (region != nullptr) regions_.push_back({region, &marks, false});
+  }
+
+  /// Null if the region needs no block.
+  Block* make(const RegionMasks& marks, const OcTreeKey& corner) {
+    const NodeRef deepest = store_.deepest(corner);
+    bool all_hit = true, all_free = true, any_hit = false, any_free = false;
+    for (std::size_t t = 0; t < 8; ++t) {
+      const std::uint64_t free = marks.free[t] & ~marks.hit[t];
+      all_hit = all_hit && marks.hit[t] == ~std::uint64_t{0};
+      all_free = all_free && free == ~std::uint64_t{0};
+      any_hit = any_hit || marks.hit[t] != 0;
+      any_free = any_free || free != 0;
+    }
+    if (deepest && !store_.hasChildren(deepest)) {
+      const float value = store_.node(deepest)->getLogOdds();
+      any_hit = any_hit && !model_.settled(value, model_.hit);
+      any_free = any_free && !model_.settled(value, model_.miss);
+      if (!any_hit && !any_free) return nullptr;
+    }
+    bool is_new = false;
+    const NodeRef cell = structure::reach(store_, deepest, corner, kTreeDepth - 3, is_new,
+                                          [this](NodeRef at) { structure::expand(store_, at); });
+    NODE* node = store_.node(cell);
+    float after;
+    if (RegionUpdate<NODE>::staysWhole(model_, lazy_, node->getLogOdds(), all_hit, all_free, after)) {
+      node->setLogOdds(after);
+      store_.touch(cell.block);
+      up_.add(cell);
+      return nullptr;
+    }
+    if (is_new) return store_.createBlockBelow(cell);
+    structure::expand(store_, cell);
+    return store_.findRegion(corner);
+  }
+
+  /// Updates the next region after the memory of the one after it was asked for.
+  void updatePart(std::span<Region> regions, RegionEditor<NODE>& editor) const {
+    RegionUpdate<NODE> update[] = {{editor, model_, lazy_}, {editor, model_, lazy_}};
+    for (std::size_t i = 0; i <= regions.size(); ++i) {
+      if (i + 2 < regions.size()) {
+        const char* block = reinterpret_cast<const char*>(regions[i + 2].block);
+        for (std::size_t line = 0; line < sizeof(Block); line += 64) __builtin_prefetch(block + line, 1);
       }
-      structure::expand(store_, cell);
-      region = store_.findRegion(corner);
+      if (i < regions.size()) update[i % 2].begin(*regions[i].block, *regions[i].marks);
+      if (i > 0) regions[i - 1].changed = update[1 - i % 2].finish();
     }
-    fresh = markedOctants() & ~unsigned{region->mask[kTopOctet]};
-    if (fresh != 0) store_.createNodes(region, kTopOctet, static_cast<std::uint8_t>(fresh));
-    return region;
   }
 
-  unsigned markedOctants() const {
-    unsigned marked = 0;
-    for (std::size_t t = 0; t < 8; ++t) marked |= unsigned{(hit_[t] | free_[t]) != 0} << t;
-    return marked;
-  }
-
-  /// All cells have this value: drops the marks that would change nothing. False if none is left.
-  bool keepUnsettled(float value) {
-    bool left = false;
-    for (std::size_t t = 0; t < 8; ++t) left |= keepUnsettled(value, t);
-    return left;
-  }
-  bool keepUnsettled(float value, std::size_t t) {
-    if (model_.settled(value, model_.hit)) hit_[t] = 0;
-    if (model_.settled(value, model_.miss)) free_[t] = 0;
-    return (hit_[t] | free_[t]) != 0;
-  }
-
-  /// Updates the marked cells under top node t. Returns its middle nodes with changed cells.
-  std::uint8_t applyOctant(Block& region, std::size_t t, bool fresh) {
-    if ((hit_[t] | free_[t]) == 0) return 0;
-    const NodeRef top{&region, kTopSlot + static_cast<int>(t)};
-    const int middles = childOctet(top.slot);
-    const std::uint8_t& existing = region.mask[static_cast<std::size_t>(middles)];
-    if (existing == 0 && !fresh) {
-      if (!keepUnsettled(store_.node(top)->getLogOdds(), t)) return 0;
-      structure::expand(store_, top);
+  /// Prunes or recomputes what lies above the changed regions.
+  void close() {
+    for (const Region& region : regions_) {
+      if (!region.changed) continue;
+      store_.touch(region.block);
+      if (lazy_) continue;
+      const NodeRef cell = store_.parent({region.block, kTopSlot});
+      structure::summarise(store_, cell, NodeRef{region.block, kTopSlot});
+      up_.add(cell);
     }
-    const std::uint64_t marks = hit_[t] | free_[t];
-    unsigned marked = 0;
-    for (int i = 0; i < 8; ++i) marked |= unsigned{(marks >> (8 * i) & 0xff) != 0} << i;
-    const unsigned missing = marked & ~unsigned{existing};
-    if (missing != 0) store_.createNodes(&region, middles, static_cast<std::uint8_t>(missing));
-
-    unsigned changed = 0;
-    for (unsigned rest = marked; rest != 0; rest &= rest - 1) {
-      const int i = std::countr_zero(rest);
-      const NodeRef middle{&region, middles * 8 + i};
-      if (applyCells(middle, missing >> i & 1, static_cast<std::uint8_t>(hit_[t] >> (8 * i)),
-                     static_cast<std::uint8_t>(free_[t] >> (8 * i))))
-        changed |= 1U << i;
-    }
-    return static_cast<std::uint8_t>(changed);
-  }
-
-  /// Updates the marked ones of eight cells. False if nothing changed.
-  bool applyCells(NodeRef middle, bool fresh, std::uint8_t hit, std::uint8_t free) {
-    const int octet = childOctet(middle.slot);
-    const std::uint8_t& existing = middle.block->mask[static_cast<std::size_t>(octet)];
-    if (existing == 0 && !fresh) {
-      const float value = store_.node(middle)->getLogOdds();
-      if (model_.settled(value, model_.hit)) hit = 0;
-      if (model_.settled(value, model_.miss)) free = 0;
-      if ((hit | free) == 0) return false;
-      structure::expand(store_, middle);
-    }
-    const unsigned marked = hit | free;
-    const unsigned missing = marked & ~unsigned{existing};
-    NODE* cells = missing != 0 ? store_.createNodes(middle.block, octet, static_cast<std::uint8_t>(missing))
-                               : store_.octet(middle.block, octet).nodes;
-    bool changed = missing != 0;
-    for (unsigned rest = marked; rest != 0; rest &= rest - 1) {
-      const int i = std::countr_zero(rest);
-      const float update = hit >> i & 1 ? model_.hit : model_.miss;
-      const float value = cells[i].getLogOdds();
-      if (!(missing >> i & 1) && model_.settled(value, update)) continue;
-      cells[i].setLogOdds(model_.updated(value, update));
-      changed = true;
-    }
-    return changed;
-  }
-
-  /// Prunes or recomputes what lies above the changed cells: middle nodes, top nodes, and the way up to the root.
-  void summarise(Block& region, const std::array<std::uint8_t, 8>& changed) {
-    NodeRef top;
-    for (int t = 0; t < 8; ++t) {
-      const unsigned middles = changed[static_cast<std::size_t>(t)];
-      if (middles == 0) continue;
-      NodeRef middle;
-      for (unsigned rest = middles; rest != 0; rest &= rest - 1) {
-        middle = {&region, kMiddleSlot + 8 * t + std::countr_zero(rest)};
-        structure::summarise(store_, middle, {&region, firstCell(middle.slot)});
-      }
-      top = {&region, kTopSlot + t};
-      structure::summarise(store_, top, middle);
-    }
-    structure::summariseAbove(store_, top);
+    if (!lazy_) up_.run();
   }
 
   BlockStore<NODE>& store_;
   SensorModel model_;
   bool lazy_;
-  std::array<std::uint64_t, 8> hit_, free_;  // of the region at hand; no cell is in both
+  std::vector<Region> regions_;
+  UpwardPass<NODE> up_{store_};
 };
 
 }  // namespace rhmap

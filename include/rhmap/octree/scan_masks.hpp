@@ -11,6 +11,7 @@
 
 #include "rhmap/core/block_index.hpp"
 #include "rhmap/core/key.hpp"
+#include "rhmap/core/large_piece.hpp"
 
 namespace rhmap {
 
@@ -51,10 +52,10 @@ constexpr std::uint64_t advance(std::uint64_t word, std::uint64_t axis_mask, std
 }  // namespace cell_word
 
 /// What one scan says about the 512 cells of one region; bits in Morton order, one word an octant.
-struct RegionMasks {
-  std::uint64_t region;               ///< cell word >> 9
+struct alignas(64) RegionMasks {
   std::array<std::uint64_t, 8> free;  ///< crossed by a ray
   std::array<std::uint64_t, 8> hit;   ///< a ray ends here: wins over free
+  std::uint64_t region;               ///< cell word >> 9
 
   OcTreeKey corner() const { return cell_word::toKey(region << 9); }
 };
@@ -84,10 +85,8 @@ class ScanMasks {
     const std::uint64_t word = cell_word::fromKey(key);
     markFree(word >> 6, std::uint64_t{1} << (word & 63));
   }
-  void markHit(const OcTreeKey& key) {
-    const std::uint64_t word = cell_word::fromKey(key);
-    at(word >> 9).hit[word >> 6 & 7] |= std::uint64_t{1} << (word & 63);
-  }
+  void markHit(const OcTreeKey& key) { markHit(cell_word::fromKey(key)); }
+  void markHit(std::uint64_t cell) { at(cell >> 9).hit[cell >> 6 & 7] |= std::uint64_t{1} << (cell & 63); }
 
   /// Marks cells of a region.
   void mark(const RegionMasks& cells) {
@@ -107,7 +106,7 @@ class ScanMasks {
   template <class F>
   void forEachRegion(F&& visit) const {
     for (std::size_t c = 0; c < chunks_.size(); ++c) {
-      const std::size_t n = c + 1 < chunks_.size() ? kChunk : used_;
+      const std::size_t n = c + 1 < chunks_.size() ? sizeOf(c) : used_;
       for (std::size_t i = 0; i < n; ++i) visit(static_cast<const RegionMasks&>(chunks_[c][i]));
     }
   }
@@ -127,7 +126,10 @@ class ScanMasks {
   }
 
  private:
-  static constexpr std::size_t kChunk = 256;
+  /// A small scan needs few; those of a large one are in large pages, because the marks of rays jump about in them.
+  static constexpr std::size_t sizeOf(std::size_t chunk) {
+    return chunk == 0 ? 256 : kLargePieceBytes / sizeof(RegionMasks);
+  }
 
   static constexpr int kLargestTableBits = 22;
 
@@ -144,12 +146,13 @@ class ScanMasks {
   }
 
   RegionMasks& create(std::uint64_t region) {
-    if (chunks_.empty() || used_ == kChunk) {
-      chunks_.push_back(std::make_unique_for_overwrite<RegionMasks[]>(kChunk));
+    if (chunks_.empty() || used_ == sizeOf(chunks_.size() - 1)) {
+      chunks_.reserve(chunks_.size() + 1);
+      chunks_.emplace_back(static_cast<RegionMasks*>(allocateLargePiece(!chunks_.empty())));
       used_ = 0;
     }
     RegionMasks& fresh = chunks_.back()[used_++];
-    fresh = RegionMasks{region, {}, {}};
+    fresh = RegionMasks{{}, {}, region};
     return fresh;
   }
 
@@ -162,7 +165,10 @@ class ScanMasks {
   int z_shift_ = 0;
   std::unique_ptr<RegionMasks*[], Free> table_;  // zeroed by calloc: pages that no ray reaches are never touched
   BlockIndex<RegionMasks> index_;
-  std::vector<std::unique_ptr<RegionMasks[]>> chunks_;
+  struct FreePiece {
+    void operator()(RegionMasks* p) const { freeLargePiece(p); }
+  };
+  std::vector<std::unique_ptr<RegionMasks[], FreePiece>> chunks_;
   std::size_t used_ = 0;
 };
 

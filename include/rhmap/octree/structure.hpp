@@ -76,14 +76,17 @@ inline constexpr bool kOctomapsInnerValue = requires(NODE node, Octet<NODE> chil
 
 /// Recomputes an inner node from its children, by the rule of its class, if it has one.
 template <class NODE>
+void recompute(NODE& node, const Octet<NODE>& children) {
+  if constexpr (kOctomapsInnerValue<NODE>) {
+    node.updateOccupancyChildren(children);
+  } else if constexpr (requires { node.updateOccupancyChildren(); }) {
+    node.updateOccupancyChildren();
+  }
+}
+template <class NODE>
 void recompute(BlockStore<NODE>& store, NodeRef at, const Octet<NODE>& children) {
   store.touch(at.block);
-  NODE* node = store.node(at);
-  if constexpr (kOctomapsInnerValue<NODE>) {
-    node->updateOccupancyChildren(children);
-  } else if constexpr (requires { node->updateOccupancyChildren(); }) {
-    node->updateOccupancyChildren();
-  }
+  recompute(*store.node(at), children);
 }
 
 /// Recomputes a node from its children, of which `child` is one.
@@ -256,14 +259,20 @@ void expandAll(BlockStore<NODE>& store, Expand&& expand) {
     });
 }
 
-/// Recomputes every inner node from its children, bottom up.
+/// Recomputes every inner node from its children, bottom up: the cells of upper blocks, which are above other blocks,
+/// then what is above them in their own.
 template <class NODE>
 void updateInner(BlockStore<NODE>& store) {
   store.touchAll();  // leaves, too: who wrote into nodes by hand calls this afterwards
-  for (int depth = kTreeDepth - 1; depth >= 0; --depth)
-    forEachAtDepth(store, static_cast<unsigned>(depth), [&](NodeRef at) {
-      if (const Octet<NODE> children = store.children(at); children.mask != 0) recompute(store, at, children);
-    });
+  const auto update = [&](Block* block, int slot) {
+    if (!block->has(slot)) return;
+    if (const Octet<NODE> children = store.children({block, slot}); children.mask != 0)
+      recompute(*store.node({block, slot}), children);
+  };
+  for (int level = kRegionLevel; level >= 0; --level)
+    for (Block* block : blocksOfLevel(store, level))
+      for (int step = level == kRegionLevel ? 0 : 1; step >= -1; --step)
+        for (int slot = slotAbove(0, step); slot <= slotAbove(kCells - 1, step); ++slot) update(block, slot);
 }
 
 }  // namespace rhmap::structure

@@ -1,0 +1,197 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <array>
+#include <bit>
+#include <cstdint>
+#include <span>
+#include <type_traits>
+
+#include "rhmap/core/region_editor.hpp"
+#include "rhmap/octree/octet_update.hpp"
+#include "rhmap/octree/scan_masks.hpp"
+#include "rhmap/octree/structure.hpp"
+
+namespace rhmap {
+
+/// Puts the marks of one scan into regions: the same nodes and values as OctoMap's updateNode for every marked cell
+/// and, unless it is lazy, pruning and inner values up to the region's eight top nodes. Every node is visited once.
+template <class NODE>
+class RegionUpdate {
+ public:
+  RegionUpdate(RegionEditor<NODE>& editor, const SensorModel& model, bool lazy)
+      : editor_(editor), model_(model), lazy_(lazy) {}
+
+  /// Makes what is missing above and around the marked cells, and asks for the cells' memory.
+  void begin(Block& region, const RegionMasks& masks) {
+    region_ = &region;
+    count_ = 0;
+    changed_ = {};
+    whole_ = 0;
+    for (int top = 0; top < 8; ++top) enter(region, top, masks);
+  }
+
+  /// Updates the cells and what lies above them. False if nothing changed. Better some time after begin().
+  bool finish() {
+    Block& region = *region_;
+    updateOctets(std::span(octets_.data(), count_), model_);
+    for (std::size_t i = 0; i < count_; ++i)
+      if (octets_[i].changed != 0) summarise(region, number_[i], octets_[i]);
+    bool any = whole_ != 0;
+    for (int top = 0; top < 8; ++top) {
+      if (changed_[static_cast<std::size_t>(top)] == 0) continue;
+      any = true;
+      if (!lazy_) summarise(region, top);
+    }
+    return any;
+  }
+
+  /// The value that a leaf has after all cells in it were marked alike, so that it can stay one; false if it has to be
+  /// expanded to find out.
+  static bool staysWhole(const SensorModel& model, bool lazy, float before, bool all_hit, bool all_free, float& after) {
+    if constexpr (!kIsPlain) return false;  // other nodes may hold what copying does not keep
+    if (lazy || !(all_hit || all_free)) return false;
+    after = model.updated(before, all_hit ? model.hit : model.miss);
+    return after == after;  // NaN is equal to nothing and never pruned
+  }
+
+ private:
+  static constexpr bool kIsPlain = std::is_same_v<NODE, OcTreeNode>;
+
+  static std::uint8_t& mask(Block& region, int octet) { return region.mask[static_cast<std::size_t>(octet)]; }
+
+  /// Goes down one top node: makes what is missing above and around the marked cells and notes the octets to update.
+  void enter(Block& region, int top, const RegionMasks& masks) {
+    std::uint64_t hit = masks.hit[static_cast<std::size_t>(top)];
+    std::uint64_t free = masks.free[static_cast<std::size_t>(top)] & ~hit;
+    if ((hit | free) == 0) return;
+    const int middles = kMiddleOctet + top;
+    const bool is_new = (mask(region, kTopOctet) >> top & 1) == 0;
+    NODE* tops = is_new ? editor_.create(region, kTopOctet, 1U << top) : editor_.nodes(region, kTopOctet);
+    if (is_new || mask(region, middles) == 0) {
+      const float value = tops[top].getLogOdds();
+      if (!is_new && !keepUnsettled(value, hit, free)) return;
+      float after;
+      if (staysWhole(model_, lazy_, value, hit == ~std::uint64_t{0}, free == ~std::uint64_t{0}, after)) {
+        tops[top].setLogOdds(after);
+        whole_ |= 1U << top;
+        return;
+      }
+      if (!is_new) expand(region, middles, tops[top]);
+    }
+    for (std::uint64_t rest = nonzeroBytes(hit | free); rest != 0; rest &= rest - 1) {
+      const int shift = std::countr_zero(rest) - 7;
+      const int octet = 8 * top + shift / 8;
+      const auto octet_hit = static_cast<std::uint8_t>(hit >> shift);
+      const auto octet_free = static_cast<std::uint8_t>(free >> shift);
+      const std::uint8_t existing = mask(region, octet);
+      if (existing != 0) {
+        const auto after = static_cast<std::uint8_t>(existing | octet_hit | octet_free);
+        note(octet, makeCells(region, octet, after, nullptr), octet_hit, octet_free, existing, after, 0);
+      } else {
+        enter(region, top, shift / 8, octet_hit, octet_free);
+      }
+    }
+  }
+
+  /// The same for middle node `i` of a top node, which has no cells yet.
+  void enter(Block& region, int top, int i, std::uint8_t hit, std::uint8_t free) {
+    const int middles = kMiddleOctet + top;
+    const int octet = 8 * top + i;
+    const bool is_new = (mask(region, middles) >> i & 1) == 0;
+    NODE* middle = (is_new ? editor_.create(region, middles, 1U << i) : editor_.nodes(region, middles)) + i;
+    const float value = middle->getLogOdds();
+    if (!is_new && !keepUnsettled(value, hit, free)) return;
+    float whole;
+    if (staysWhole(model_, lazy_, value, hit == 0xff, free == 0xff, whole)) {
+      middle->setLogOdds(whole);
+      changed_[static_cast<std::size_t>(top)] |= 1U << i;
+    } else if (is_new) {
+      const auto after = static_cast<std::uint8_t>(hit | free);
+      note(octet, makeCells(region, octet, after, nullptr), hit, free, 0, after, 0);
+    } else {
+      note(octet, makeCells(region, octet, 0xff, middle), hit, free, 0, 0xff, value);
+    }
+  }
+
+  void note(int octet, NODE* cells, std::uint8_t hit, std::uint8_t free, std::uint8_t existing, std::uint8_t after,
+            float start) {
+    __builtin_prefetch(cells, 1);
+    number_[count_] = octet;
+    OctetUpdate<NODE>& update = octets_[count_++];
+    update.cells = cells;
+    update.hit = hit;
+    update.free = free;
+    update.existing = existing;
+    update.after = after;
+    update.start = start;
+  }
+
+  /// All cells below a leaf have its value: drops the marks that would change nothing. False if none is left.
+  template <class BITS>
+  bool keepUnsettled(float value, BITS& hit, BITS& free) const {
+    if (model_.settled(value, model_.hit)) hit = 0;
+    if (model_.settled(value, model_.miss)) free = 0;
+    return (hit | free) != 0;
+  }
+
+  void expand(Block& region, int octet, const NODE& from) {
+    NODE* nodes = editor_.create(region, octet, 0xff);
+    for (int i = 0; i < 8; ++i) nodes[i].copyData(from);
+  }
+
+  /// The cells of an octet, with those of `after` that are missing; copies of `leaf`, if that was one until now.
+  NODE* makeCells(Block& region, int octet, std::uint8_t after, const NODE* leaf) {
+    const std::uint8_t existing = mask(region, octet);
+    const unsigned missing = after & ~unsigned{existing};
+    if (missing == 0) return editor_.nodes(region, octet);
+    if constexpr (kIsPlain) return editor_.claim(region, octet, missing);  // updateOctets() will write the values
+    NODE* cells = editor_.create(region, octet, missing);
+    if (existing == 0 && leaf != nullptr)
+      for (int i = 0; i < 8; ++i) cells[i].copyData(*leaf);
+    return cells;
+  }
+
+  /// Prunes or recomputes a middle node.
+  void summarise(Block& region, int octet, const OctetUpdate<NODE>& cells) {
+    const int top = octet >> 3;
+    changed_[static_cast<std::size_t>(top)] |= 1U << (octet & 7);
+    if (lazy_) return;
+    NODE& middle = editor_.nodes(region, kMiddleOctet + top)[octet & 7];
+    if (cells.uniform) {
+      middle.copyData(cells.cells[0]);
+      editor_.remove(region, octet);
+    } else if constexpr (kIsPlain) {
+      middle.setLogOdds(cells.max);
+    } else {
+      structure::recompute(middle, Octet<NODE>{cells.cells, cells.after});
+    }
+  }
+
+  /// Prunes or recomputes a top node.
+  void summarise(Block& region, int top) {
+    const int middles = kMiddleOctet + top;
+    const Octet<NODE> children{editor_.nodes(region, middles), mask(region, middles)};
+    NODE& node = editor_.nodes(region, kTopOctet)[top];
+    bool uniform = children.mask == 0xff && masksFrom(region, 8 * top) == 0;
+    for (int i = 1; i < 8 && uniform; ++i) uniform = children.nodes[i] == children.nodes[0];
+    if (uniform) {
+      node.copyData(children.nodes[0]);
+      editor_.remove(region, middles);
+    } else {
+      structure::recompute(node, children);
+    }
+  }
+
+  RegionEditor<NODE>& editor_;
+  SensorModel model_;
+  bool lazy_;
+  Block* region_ = nullptr;
+  unsigned whole_ = 0;               // top nodes that have changed and stayed leaves
+  std::array<unsigned, 8> changed_;  // middle nodes that have, or that have cells that have
+  std::size_t count_ = 0;
+  std::array<int, kMiddleOctet> number_;
+  std::array<OctetUpdate<NODE>, kMiddleOctet> octets_;
+};
+
+}  // namespace rhmap
