@@ -166,8 +166,7 @@ std::size_t RhMap::Removal::write(const ScanTrace& trace, const octomap::Pointcl
   if (tree_.use_change_detection) {
     cells.forEachCell([this](const OcTreeKey& cell, bool occupied) { tree_.updateNode(cell, occupied); });
   } else {
-    ScanApplier<OcTreeNode> applier(*tree_.store_, tree_.sensorModel(), false);
-    cells.forEachRegion([&](const RegionMasks& region) { applier.apply(region); });
+    ScanApplier<OcTreeNode>(*tree_.store_, tree_.sensorModel(), false).apply(cells, tree_.getNumThreads());
   }
   return inserted;
 }
