@@ -151,7 +151,8 @@ std::size_t RhMap::Removal::write(const ScanTrace& trace, const octomap::Pointcl
   for (const Region* region : trace.regions) {
     for (std::size_t first = 0; first < region->octants.size(); first += octants) {
       const std::uint64_t word = cell_word::fromKey(regions_.cornerOf(*region, first));
-      RegionMasks hits{word >> 9, {}, {}};
+      RegionMasks hits{};
+      hits.region = word >> 9;
       std::size_t cubes = 0;
       for (std::size_t o = 0; o < octants; ++o) {
         const Octant& octant = region->octants[first + o];
@@ -180,7 +181,9 @@ void RhMap::Removal::markFree(const octomap::Pointcloud& points, const octomap::
       markScan(tree_.keySpace(), world, pose.trans(),
                {.max_range = config_.max_range, .box = nullptr, .num_threads = tree_.getNumThreads()}, counts);
   crossed.forEachRegion([&](const RegionMasks& marked) {
-    RegionMasks free{marked.region, marked.free, {}};
+    RegionMasks free{};
+    free.region = marked.region;
+    free.free = marked.free;
     for (std::uint64_t t = 0; t < 8; ++t) {
       const OcTreeKey corner = cell_word::toKey(marked.region << 9 | t << 6);
       const Region* region = regions_.regionOf(corner);
