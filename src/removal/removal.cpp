@@ -159,6 +159,7 @@ std::size_t RhMap::Removal::write(const ScanTrace& trace, const octomap::Pointcl
         const std::uint64_t hit = octant.hit & octant.occupied;
         hits.hit[(word >> 6 & 7) + o] = hit;
         cubes += static_cast<std::size_t>(std::popcount(hit));
+        if (config_.carve) forgetFree(regions_.cornerOf(*region, first + o), hit & octant.fresh);
       }
       if (cubes > 0) cells.mark(hits);
       inserted += cubes;
@@ -170,6 +171,14 @@ std::size_t RhMap::Removal::write(const ScanTrace& trace, const octomap::Pointcl
     ScanApplier<OcTreeNode>(*tree_.store_, tree_.sensorModel(), false).apply(cells, tree_.getNumThreads());
   }
   return inserted;
+}
+
+/// Cubes that are new to the map are as likely as any, however often rays have crossed them before.
+void RhMap::Removal::forgetFree(const OcTreeKey& corner, std::uint64_t cubes) {
+  forEachBit(cubes, [&](int bit) {
+    const OcTreeKey cube = cubeOf(corner, bit);
+    if (tree_.search(cube) != nullptr) tree_.setNodeValue(cube, 0);
+  });
 }
 
 /// What OctoMap's rays cross, except cubes that the map holds for occupied, and ends that were kept out of it.
