@@ -150,6 +150,7 @@ std::size_t RhMap::Removal::write(const ScanTrace& trace, const octomap::Pointcl
   const std::size_t octants = std::min<std::size_t>(8, regions_.octants());
   for (const Region* region : trace.regions) {
     for (std::size_t first = 0; first < region->octants.size(); first += octants) {
+      if ((region->hit_octants >> first & 0xff) == 0) continue;
       const std::uint64_t word = cell_word::fromKey(regions_.cornerOf(*region, first));
       RegionMasks hits{};
       hits.region = word >> 9;
