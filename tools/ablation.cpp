@@ -40,6 +40,10 @@ constexpr std::array kRows{
     Row{"default - protect", "default", [](RemovalConfig& config) { config.protect_hits = false; }},
     Row{"default - hshrink", "default", [](RemovalConfig& config) { config.shrink_heights = false; }},
     Row{"default - visibility", "default", [](RemovalConfig& config) { config.visibility.enabled = false; }},
+    Row{"default - looking everywhere", "default", [](RemovalConfig& config) { config.evidence.everywhere = false; }},
+    Row{"default - neighbourhood", "default",
+        [](RemovalConfig& config) { config.evidence.share = config.evidence.sure_share = 0; }},
+    Row{"default - looking back", "default", [](RemovalConfig& config) { config.look_back.enabled = false; }},
     Row{"default - void", "default", [](RemovalConfig& config) { config.free_space.enabled = false; }},
 };
 

@@ -104,8 +104,7 @@ void FreeSpace::markHits(const RegionMap& map, const ScanTrace& trace, const std
   const float reach = static_cast<float>(config_.max_range) * cells_per_metre;
   const float surface = static_cast<float>(config_.surface) * cells_per_metre;
   for (const Region* region : trace.regions) {
-    for (std::size_t o = 0; o < region->octants.size(); ++o) {
-      const Octant& octant = region->octants[o];
+    region->forEachHitOctant([&](std::size_t o, const Octant& octant) {
       const OcTreeKey corner = map.cornerOf(*region, o);
       forEachCell(octant.hit, corner, shift_, [&](const OcTreeKey& cell, std::uint64_t hit, std::size_t) {
         hit_.set(cell[0] >> shift_, cell[1] >> shift_, cell[2] >> shift_);
@@ -128,7 +127,7 @@ void FreeSpace::markHits(const RegionMap& map, const ScanTrace& trace, const std
         }
         if (ray.share > 0) rays.push_back(ray);
       });
-    }
+    });
   }
 }
 
@@ -167,8 +166,7 @@ void FreeSpace::follow(const std::array<float, 3>& from, const Ray& ray) {
 void FreeSpace::revert(const RegionMap& map, const ScanTrace& trace) {
   Tile* last = nullptr;  // cells come in clusters
   for (Region* region : trace.regions) {
-    for (std::size_t o = 0; o < region->octants.size(); ++o) {
-      Octant& octant = region->octants[o];
+    region->forEachHitOctant([&](std::size_t o, Octant& octant) {
       forEachCell(octant.hit, map.cornerOf(*region, o), shift_,
                   [&](const OcTreeKey& corner, std::uint64_t, std::size_t number) {
                     const int x = corner[0] >> shift_, y = corner[1] >> shift_, z = (corner[2] >> shift_) - voids_.z0();
@@ -185,7 +183,7 @@ void FreeSpace::revert(const RegionMap& map, const ScanTrace& trace) {
                     for (int cy = y - 1; cy <= y + 1; ++cy)
                       for (int cx = x - 1; cx <= x + 1; ++cx) tileAt(cx >> 3, cy >> 3).at(cx, cy).is_void &= ~around;
                   });
-    }
+    });
   }
 }
 

@@ -16,9 +16,7 @@ std::size_t MovingHits::reject(const RegionMap& map, const ScanTrace& trace, con
   CellGrid moving = solid;
   bool any = false;
   for (const Region* region : trace.regions) {
-    for (std::size_t o = 0; o < region->octants.size(); ++o) {
-      const Octant& octant = region->octants[o];
-      if (octant.hit == 0) continue;
+    region->forEachHitOctant([&](std::size_t o, const Octant& octant) {
       std::uint64_t come = octant.appeared;
       if (come != 0) {
         const Neighbourhood around = lookAround(
@@ -34,7 +32,7 @@ std::size_t MovingHits::reject(const RegionMap& map, const ScanTrace& trace, con
                     moving.set(x, y, z);
                     any = true;
                   });
-    }
+    });
   }
   if (!any) return 0;
 
@@ -45,39 +43,37 @@ std::size_t MovingHits::reject(const RegionMap& map, const ScanTrace& trace, con
   }
   std::size_t rejected = 0;
   for (Region* region : trace.regions) {
-    for (std::size_t o = 0; o < region->octants.size(); ++o) {
-      Octant& octant = region->octants[o];
+    region->forEachHitOctant([&](std::size_t o, Octant& octant) {
       const OcTreeKey corner = map.cornerOf(*region, o);
       std::uint64_t out = 0;
       forEachCell(octant.hit & octant.occupied & ~octant.safe, corner, shift,
                   [&](const OcTreeKey& cell, std::uint64_t hit, std::size_t) {
                     if (moving.at(cell[0] >> shift, cell[1] >> shift, cell[2] >> shift)) out |= hit;
                   });
-      if (out == 0) continue;
+      if (out == 0) return;
       forEachBit(out, [&](int bit) {
         if (octant.hits[static_cast<std::size_t>(bit)] > config_.free_space.known) out &= ~maskOf(bit);
       });
-      if (out == 0) continue;
+      if (out == 0) return;
       rejected += static_cast<std::size_t>(std::popcount(out));
       if (const std::uint64_t known = out & ~octant.fresh; known != 0) removed.push_back({corner, known, false});
       octant.remove(out);
       map.find(region->x, region->y)->stale = true;
-    }
+    });
   }
   return rejected;
 }
 
 void MovingHits::lookBack(const RegionMap& map, const ScanTrace& trace) const {
   for (Region* region : trace.regions) {
-    for (std::size_t o = 0; o < region->octants.size(); ++o) {
-      Octant& octant = region->octants[o];
+    region->forEachHitOctant([&](std::size_t o, Octant& octant) {
       const std::uint64_t fresh = octant.fresh & ~octant.ground;
-      if (fresh == 0) continue;
+      if (fresh == 0) return;
       const OcTreeKey corner = map.cornerOf(*region, o);
       forEachBit(fresh, [&](int bit) {
         if (hasCome(cubeOf(corner, bit))) octant.appeared |= maskOf(bit);
       });
-    }
+    });
   }
 }
 

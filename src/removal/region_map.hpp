@@ -55,7 +55,22 @@ struct Region {
   bool loose = true;             ///< there may be cubes that are not safe
   bool doubtful = false;         ///< there may be cubes that are doubted
   Plane plane;
-  std::vector<Octant> octants;  ///< in Morton order
+  std::vector<Octant> octants;    ///< in Morton order
+  std::uint64_t hit_octants = 0;  ///< those that the scan has hit
+
+  /// Visits the octants that its last scan has hit: visit(number, octant).
+  template <class F>
+  void forEachHitOctant(F&& visit) const {
+    for (std::uint64_t rest = hit_octants; rest != 0; rest &= rest - 1) {
+      const auto o = static_cast<std::size_t>(std::countr_zero(rest));
+      visit(o, octants[o]);
+    }
+  }
+  template <class F>
+  void forEachHitOctant(F&& visit) {
+    std::as_const(*this).forEachHitOctant(
+        [&](std::size_t o, const Octant& octant) { visit(o, const_cast<Octant&>(octant)); });
+  }
 
   bool isOccupied() const {
     for (const Octant& octant : octants)

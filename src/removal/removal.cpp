@@ -150,14 +150,17 @@ std::size_t RhMap::Removal::write(const ScanTrace& trace, const octomap::Pointcl
   const std::size_t octants = std::min<std::size_t>(8, regions_.octants());
   for (const Region* region : trace.regions) {
     for (std::size_t first = 0; first < region->octants.size(); first += octants) {
+      if ((region->hit_octants >> first & 0xff) == 0) continue;
       const std::uint64_t word = cell_word::fromKey(regions_.cornerOf(*region, first));
-      RegionMasks hits{word >> 9, {}, {}};
+      RegionMasks hits{};
+      hits.region = word >> 9;
       std::size_t cubes = 0;
       for (std::size_t o = 0; o < octants; ++o) {
         const Octant& octant = region->octants[first + o];
         const std::uint64_t hit = octant.hit & octant.occupied;
         hits.hit[(word >> 6 & 7) + o] = hit;
         cubes += static_cast<std::size_t>(std::popcount(hit));
+        if (config_.carve) forgetFree(regions_.cornerOf(*region, first + o), hit & octant.fresh);
       }
       if (cubes > 0) cells.mark(hits);
       inserted += cubes;
@@ -166,10 +169,17 @@ std::size_t RhMap::Removal::write(const ScanTrace& trace, const octomap::Pointcl
   if (tree_.use_change_detection) {
     cells.forEachCell([this](const OcTreeKey& cell, bool occupied) { tree_.updateNode(cell, occupied); });
   } else {
-    ScanApplier<OcTreeNode> applier(*tree_.store_, tree_.sensorModel(), false);
-    cells.forEachRegion([&](const RegionMasks& region) { applier.apply(region); });
+    ScanApplier<OcTreeNode>(*tree_.store_, tree_.sensorModel(), false).apply(cells, tree_.getNumThreads());
   }
   return inserted;
+}
+
+/// Cubes that are new to the map are as likely as any, however often rays have crossed them before.
+void RhMap::Removal::forgetFree(const OcTreeKey& corner, std::uint64_t cubes) {
+  forEachBit(cubes, [&](int bit) {
+    const OcTreeKey cube = cubeOf(corner, bit);
+    if (tree_.search(cube) != nullptr) tree_.setNodeValue(cube, 0);
+  });
 }
 
 /// What OctoMap's rays cross, except cubes that the map holds for occupied, and ends that were kept out of it.
@@ -181,7 +191,9 @@ void RhMap::Removal::markFree(const octomap::Pointcloud& points, const octomap::
       markScan(tree_.keySpace(), world, pose.trans(),
                {.max_range = config_.max_range, .box = nullptr, .num_threads = tree_.getNumThreads()}, counts);
   crossed.forEachRegion([&](const RegionMasks& marked) {
-    RegionMasks free{marked.region, marked.free, {}};
+    RegionMasks free{};
+    free.region = marked.region;
+    free.free = marked.free;
     for (std::uint64_t t = 0; t < 8; ++t) {
       const OcTreeKey corner = cell_word::toKey(marked.region << 9 | t << 6);
       const Region* region = regions_.regionOf(corner);

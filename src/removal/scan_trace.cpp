@@ -11,7 +11,8 @@ namespace {
 void touch(Region& region, ScanTrace& trace) {
   region.scan = trace.scan;
   region.loose = true;
-  for (Octant& octant : region.octants) octant.hit = octant.fresh = octant.appeared = 0;
+  region.forEachHitOctant([](std::size_t, Octant& octant) { octant.hit = octant.fresh = octant.appeared = 0; });
+  region.hit_octants = 0;
   trace.regions.push_back(&region);
 }
 
@@ -73,10 +74,12 @@ ScanTrace traceScan(RegionMap& map, const ScanPoints& points, const OcTreeKey& s
       in.z_max = std::max(in.z_max, int{cube[2]});
       ++in.points;
     }
-    Octant& octant = region->octants[map.octantOf(cube)];
+    const std::size_t o = map.octantOf(cube);
+    Octant& octant = region->octants[o];
     const int bit = bitOf(cube);
     if ((octant.hit & maskOf(bit)) != 0) continue;
     octant.hit |= maskOf(bit);
+    region->hit_octants |= std::uint64_t{1} << o;
     if (config.insert) insertCube(*column, octant, bit, cube[2], config.firm);
   }
   return trace;

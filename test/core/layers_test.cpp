@@ -20,6 +20,7 @@ const std::map<std::string, std::set<std::string>> kMayInclude{
     {"io", {"core", "octree"}},
     {"baseline", {"core", "octree"}},
     {"eval", {"core", "octree", "io"}},
+    {"removal", {"core", "octree"}},
     {"render", {"core", "octree"}},
     {"sim", {}},
 };

@@ -31,7 +31,7 @@ TEST(Camera, FitsTheWholeBoxIntoThePicture) {
     EXPECT_LE(used.max().x(), kWidth);
     EXPECT_LE(used.max().y(), kHeight);
     // And not smaller than it must be.
-    EXPECT_GT(std::max(used.sizes().x() / kWidth, used.sizes().y() / kHeight), 0.85);
+    EXPECT_GT(std::max(used.sizes().x() / kWidth, used.sizes().y() / kHeight), 0.75);
   }
 }
 

@@ -25,9 +25,9 @@ struct LegendRamp {
 
 /// What is written on a picture; what is empty is left out.
 struct Caption {
-  std::string title;
-  std::vector<LegendEntry> entries;
-  std::vector<LegendRamp> ramps;
+  std::string title = {};
+  std::vector<LegendEntry> entries = {};
+  std::vector<LegendRamp> ramps = {};
   bool scale_bar = true;  ///< metres at the camera's target
   bool axes = true;       ///< x red, y green, z blue, as robots' axes are
 };

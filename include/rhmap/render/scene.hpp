@@ -28,10 +28,10 @@ struct Trajectory {
 
 /// What there is to see.
 struct Scene {
-  std::vector<FaceMesh> solids;
-  std::vector<FaceMesh> glass;  ///< translucent (Colour::a), seen in front of the solids and through each other
-  std::vector<PointSet> clouds;
-  std::vector<Trajectory> trajectories;
+  std::vector<FaceMesh> solids = {};
+  std::vector<FaceMesh> glass = {};  ///< translucent (Colour::a), seen in front of the solids and through each other
+  std::vector<PointSet> clouds = {};
+  std::vector<Trajectory> trajectories = {};
 };
 
 /// The box [m] around everything in the scene, free space as well; the unit cube for an empty scene.

@@ -1,0 +1,54 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "evidence.hpp"
+
+#include <gtest/gtest.h>
+
+#include <random>
+
+#include "small_world.hpp"
+
+namespace rhmap {
+namespace {
+
+TEST(Neighbourhood, OfNothingDoesNotMove) { EXPECT_FALSE(Neighbourhood{}.isMoving(0)); }
+
+TEST(Neighbourhood, MovesIfEnoughOfItDoes) {
+  EXPECT_TRUE((Neighbourhood{.moving = 4, .firm = 1}.isMoving(0.8)));
+  EXPECT_FALSE((Neighbourhood{.moving = 4, .firm = 1}.isMoving(0.81)));
+}
+
+TEST(LookAround, CountsTheCubesOf27Octants) {
+  for (const int size : {4, 8, 16}) {
+    RegionMap map = test::emptyMap(size);
+    test::RandomCubes cubes(8, 16);
+    std::mt19937 random(9);
+    std::vector<OcTreeKey> doubted, firm;
+    for (int i = 0; i < 4000; ++i) {
+      const OcTreeKey cube = cubes();
+      if (test::isOccupied(map, cube)) continue;
+      Octant& octant = test::occupy(map, cube);
+      const std::uint64_t mask = maskOf(bitOf(cube));
+      const unsigned kind = random() % 4;
+      if (kind == 0) octant.doubted |= mask, doubted.push_back(cube);
+      if (kind == 1) octant.firm |= mask, firm.push_back(cube);
+      if (kind == 2) octant.firm |= mask, octant.ground |= mask;  // ground speaks for nothing
+    }
+    for (int i = 0; i < 50; ++i) {
+      const OcTreeKey cube = cubes();
+      const auto isNear = [&](const OcTreeKey& other) {
+        for (unsigned axis = 0; axis < 3; ++axis)
+          if (std::abs((other[axis] >> 2) - (cube[axis] >> 2)) > 1) return false;
+        return true;
+      };
+      const OcTreeKey corner(static_cast<key_type>(cube[0] & ~3), static_cast<key_type>(cube[1] & ~3),
+                             static_cast<key_type>(cube[2] & ~3));
+      const Neighbourhood around =
+          lookAround(map, corner, [](const Region&, const Octant& octant) { return octant.doubted; });
+      EXPECT_EQ(around.moving, std::count_if(doubted.begin(), doubted.end(), isNear));
+      EXPECT_EQ(around.firm, std::count_if(firm.begin(), firm.end(), isNear));
+    }
+  }
+}
+
+}  // namespace
+}  // namespace rhmap

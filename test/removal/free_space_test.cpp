@@ -1,0 +1,136 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "free_space.hpp"
+
+#include <gtest/gtest.h>
+
+#include <random>
+
+#include "small_world.hpp"
+
+namespace rhmap {
+namespace {
+
+using test::kCube;
+
+TEST(CellGrid, ErodesAndDilatesBy26Neighbours) {
+  std::mt19937 random(10);
+  CellGrid grid(-4, 7, 100, 12);
+  for (int x = -4; x < 8; ++x)
+    for (int y = 7; y < 19; ++y)
+      for (int z = 100; z < 164; ++z)
+        if (random() % 40 != 0) grid.set(x, y, z);
+  CellGrid sparse(-4, 7, 100, 12);
+  for (int i = 0; i < 30; ++i)
+    sparse.set(-3 + static_cast<int>(random() % 10), 8 + static_cast<int>(random() % 10),
+               101 + static_cast<int>(random() % 62));
+  const CellGrid eroded = grid.eroded(), dilated = sparse.dilated();
+  int clear = 0;
+  for (int x = -3; x < 7; ++x) {
+    for (int y = 8; y < 18; ++y) {
+      for (int z = 101; z < 163; ++z) {
+        bool all = true, any = false;
+        for (int d = 0; d < 27; ++d) {
+          all = all && grid.at(x + d % 3 - 1, y + d / 3 % 3 - 1, z + d / 9 - 1);
+          any = any || sparse.at(x + d % 3 - 1, y + d / 3 % 3 - 1, z + d / 9 - 1);
+        }
+        ASSERT_EQ(eroded.at(x, y, z), all);
+        ASSERT_EQ(dilated.at(x, y, z), any);
+        clear += all;
+      }
+    }
+  }
+  EXPECT_GT(clear, 100);
+  EXPECT_FALSE(grid.at(-5, 8, 110));  // outside
+}
+
+/// Scans of a hall with walls 6 m from the sensor in x and y, floor and ceiling 2 m from it.
+class Hall {
+ public:
+  explicit Hall(const VoidConfig& config = {}) : free_space_(config, kCube) {}
+
+  /// With a post at (x, 0) between the floor and the ceiling, if x is above 0.
+  void scan(double post = 0) {
+    octomap::Pointcloud cloud;
+    for (int i = 0; i < 90; ++i) {
+      for (int j = 0; j < 720; ++j) {
+        const double elevation = (i - 44.5) * 3.14159 / 180, azimuth = j * 3.14159 / 360;
+        const double x = std::cos(elevation) * std::cos(azimuth), y = std::cos(elevation) * std::sin(azimuth),
+                     z = std::sin(elevation);
+        double range = std::min({6 / std::abs(x + 1e-9), 6 / std::abs(y + 1e-9), 2 / std::abs(z + 1e-9)});
+        if (post > 0 && x > 0 && std::abs(y / x * post) < 0.3) range = std::min(range, post / x);
+        cloud.push_back(static_cast<float>(range * x), static_cast<float>(range * y), static_cast<float>(range * z));
+      }
+    }
+    const ScanTrace trace = traceScan(map_, test::scanOf(cloud), sensor_, ++scans_, {.resolution = kCube});
+    free_space_.observe(
+        map_, trace,
+        {static_cast<float>(kTreeMaxVal), static_cast<float>(kTreeMaxVal), static_cast<float>(kTreeMaxVal)});
+  }
+  bool isVoid(double x, double y, double z) const {
+    const auto cell = [&](double v) {
+      return static_cast<int>(std::floor(v / kCube) + kTreeMaxVal) >> free_space_.shift();
+    };
+    return free_space_.voids().at(cell(x), cell(y), cell(z));
+  }
+  FreeSpace& freeSpace() { return free_space_; }
+
+ private:
+  OcTreeKey sensor_{kTreeMaxVal, kTreeMaxVal, kTreeMaxVal};
+  RegionMap map_ = test::emptyMap();
+  FreeSpace free_space_;
+  std::uint32_t scans_ = 0;
+};
+
+TEST(FreeSpace, IsVoidAfterTauFScansAwayFromAllWalls) {
+  Hall hall;
+  for (int i = 0; i < 5; ++i) hall.scan();
+  EXPECT_FALSE(hall.isVoid(3, 0.5, 0));
+  hall.scan();
+  EXPECT_TRUE(hall.isVoid(3, 0.5, 0));
+  EXPECT_TRUE(hall.isVoid(-2, 3, 0.3));
+  EXPECT_FALSE(hall.isVoid(5.7, 0.5, 0));   // beside a wall
+  EXPECT_FALSE(hall.isVoid(6.1, 0.5, 0));   // in it
+  EXPECT_FALSE(hall.isVoid(8, 0.5, 0));     // behind it
+  EXPECT_FALSE(hall.isVoid(3, 0.5, -1.9));  // on the floor
+}
+
+TEST(FreeSpace, IsNotVoidWhereSomethingStandsAllTheTime) {
+  Hall hall;
+  for (int i = 0; i < 8; ++i) hall.scan(3);
+  EXPECT_FALSE(hall.isVoid(3, 0, 0));
+  EXPECT_FALSE(hall.isVoid(4, 0, 0));  // in its shadow
+  EXPECT_TRUE(hall.isVoid(1.5, 0, 0));
+}
+
+TEST(FreeSpace, ComesBackWhenSomethingStays) {
+  Hall hall({.tau_r = 10});
+  for (int i = 0; i < 6; ++i) hall.scan();
+  EXPECT_TRUE(hall.isVoid(3, 0, 0));
+  for (int i = 0; i < 9; ++i) hall.scan(3);
+  EXPECT_TRUE(hall.isVoid(3, 0, 0));
+  hall.scan(3);
+  EXPECT_FALSE(hall.isVoid(3, 0, 0));
+  EXPECT_TRUE(hall.isVoid(-3, 0.5, 0));
+}
+
+TEST(FreeSpace, CanHaveSmallerCells) {
+  Hall hall({.cell = 0.2});
+  EXPECT_EQ(hall.freeSpace().shift(), 1);
+  for (int i = 0; i < 6; ++i) hall.scan();
+  EXPECT_TRUE(hall.isVoid(2, 0.5, 0));
+  EXPECT_FALSE(hall.isVoid(6.1, 0.5, 0));
+}
+
+TEST(FreeSpace, ForgetsWhatIsFar) {
+  Hall hall;
+  for (int i = 0; i < 6; ++i) hall.scan();
+  const std::size_t all = hall.freeSpace().memoryUsage();
+  hall.freeSpace().forgetBeyond({kTreeMaxVal, kTreeMaxVal, kTreeMaxVal}, 20);
+  EXPECT_LT(hall.freeSpace().memoryUsage(), all);
+  hall.freeSpace().forgetBeyond({kTreeMaxVal + 4000, kTreeMaxVal, kTreeMaxVal}, 20);
+  hall.scan();
+  EXPECT_FALSE(hall.isVoid(3, 0.5, 0));
+}
+
+}  // namespace
+}  // namespace rhmap

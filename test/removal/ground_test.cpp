@@ -1,0 +1,126 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "ground.hpp"
+
+#include <gtest/gtest.h>
+
+#include <vector>
+
+#include "small_world.hpp"
+
+namespace rhmap {
+namespace {
+
+using test::emptyMap;
+using test::kCube;
+
+std::vector<LocalCube> slope(double dx, double dy) {
+  std::vector<LocalCube> cubes;
+  for (int x = 0; x < 8; ++x)
+    for (int y = 0; y < 8; ++y) cubes.push_back({x, y, static_cast<int>(std::floor(2 + dx * x + dy * y))});
+  return cubes;
+}
+
+TEST(GroundPlane, OfASlopeIsTheSlope) {
+  const auto plane = fitGround(slope(0.25, 0), {}, kCube);
+  ASSERT_TRUE(plane);
+  EXPECT_NEAR(-plane->n[0] / plane->n[2], 0.25, 0.07);
+  EXPECT_NEAR(plane->n[1], 0, 0.05);
+}
+
+TEST(GroundPlane, OfOneLayerIsLevel) {  // no cube is lower than the mean
+  const auto plane = fitGround(slope(0, 0), {}, kCube);
+  ASSERT_TRUE(plane);
+  EXPECT_NEAR(plane->n[2], 1, 1e-6);
+  EXPECT_NEAR(plane->above(3, 3, 2), 0, 1e-5);
+}
+
+TEST(GroundPlane, IsNoneOfAWallNorOfAFewCubes) {
+  std::vector<LocalCube> wall;
+  for (int y = 0; y < 8; ++y)
+    for (int z = 0; z < 8; ++z) wall.push_back({3, y, z});
+  EXPECT_FALSE(fitGround(wall, {}, kCube));
+  const auto few = slope(0, 0);
+  EXPECT_FALSE(fitGround(std::span(few).first(5), {}, kCube));
+}
+
+/// The world as cubes, inserted scan by scan, with the ground estimated after each.
+class Ground {
+ public:
+  explicit Ground(const GroundConfig& config = {}) : estimation_(config, kCube) {}
+
+  void insert(const std::vector<OcTreeKey>& cubes) {
+    ScanPoints points;
+    points.cube = cubes;
+    for (auto* v : {&points.x, &points.y, &points.z, &points.range}) v->assign(cubes.size(), 1.0F);
+    estimation_.update(map_, traceScan(map_, points, at(0, 0, 0), ++scan_, {.resolution = kCube}));
+  }
+  static OcTreeKey at(int x, int y, int z) {
+    return {static_cast<key_type>(kTreeMaxVal + x), static_cast<key_type>(kTreeMaxVal + y),
+            static_cast<key_type>(kTreeMaxVal + z)};
+  }
+  static std::vector<OcTreeKey> plate(int x0, int x1, int z) {
+    std::vector<OcTreeKey> cubes;
+    for (int x = x0; x < x1; ++x)
+      for (int y = 0; y < 24; ++y) cubes.push_back(at(x, y, z));
+    return cubes;
+  }
+  bool is(const OcTreeKey& cube) const {
+    return (map_.regionOf(cube)->octants[map_.octantOf(cube)].ground & maskOf(bitOf(cube))) != 0;
+  }
+  bool isSafe(const OcTreeKey& cube) const {
+    return (map_.regionOf(cube)->octants[map_.octantOf(cube)].safe & maskOf(bitOf(cube))) != 0;
+  }
+
+ private:
+  RegionMap map_ = emptyMap();
+  GroundEstimation estimation_;
+  std::uint32_t scan_ = 0;
+};
+
+TEST(GroundEstimation, TellsARoadFromABoxOnIt) {
+  Ground ground;
+  auto cubes = Ground::plate(0, 24, 2);
+  for (int x = 10; x < 14; ++x)
+    for (int y = 10; y < 14; ++y)
+      for (int z = 3; z < 12; ++z) cubes.push_back(Ground::at(x, y, z));
+  ground.insert(cubes);
+  EXPECT_TRUE(ground.is(Ground::at(1, 1, 2)));
+  EXPECT_TRUE(ground.isSafe(Ground::at(1, 1, 2)));
+  EXPECT_TRUE(ground.is(Ground::at(11, 11, 3)));  // within r_gro
+  EXPECT_FALSE(ground.isSafe(Ground::at(11, 11, 3)));
+  EXPECT_FALSE(ground.is(Ground::at(11, 11, 5)));
+  EXPECT_FALSE(ground.is(Ground::at(11, 11, 11)));
+}
+
+TEST(GroundEstimation, TheRoofOfACarIsNoneOnceTheRoadIsSeen) {
+  Ground ground;
+  ground.insert(Ground::plate(0, 24, 18));
+  EXPECT_TRUE(ground.is(Ground::at(12, 12, 18)));
+  ground.insert(Ground::plate(0, 24, 2));
+  EXPECT_FALSE(ground.is(Ground::at(12, 12, 18)));
+  EXPECT_TRUE(ground.is(Ground::at(12, 12, 2)));
+}
+
+TEST(GroundEstimation, DoesNotClimbSteps) {
+  Ground ground;
+  ground.insert(Ground::plate(0, 8, 2));
+  ground.insert(Ground::plate(8, 16, 7));  // beside it, half a metre up
+  EXPECT_TRUE(ground.is(Ground::at(4, 12, 2)));
+  EXPECT_FALSE(ground.is(Ground::at(12, 12, 7)));
+}
+
+TEST(GroundEstimation, GoesOnAcrossTheBordersOfRegions) {
+  for (const bool across : {true, false}) {
+    GroundConfig config;
+    config.across_regions = across;
+    Ground ground(config);
+    auto cubes = Ground::plate(0, 24, 7);  // the highest layer of its regions
+    for (int i = 8; i < 12; ++i) cubes.push_back(Ground::at(i, i, 8));
+    ground.insert(cubes);
+    EXPECT_TRUE(ground.is(Ground::at(9, 10, 7)));
+    EXPECT_EQ(ground.is(Ground::at(9, 9, 8)), across);
+  }
+}
+
+}  // namespace
+}  // namespace rhmap

@@ -1,0 +1,110 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "moving_hits.hpp"
+
+#include <gtest/gtest.h>
+
+#include "ground.hpp"
+#include "range_image.hpp"
+#include "small_world.hpp"
+
+namespace rhmap {
+namespace {
+
+using test::kCube;
+
+/// A place in front of a wall and above the ground, with or without a box in it, seen from the origin.
+class Place {
+ public:
+  explicit Place(const RemovalConfig& config = {})
+      : config_(config), ground_(config.ground, kCube), free_space_(config.free_space, kCube), moving_(config) {}
+
+  /// A box of 1.4 m, 1.2 m wide, on the ground at x = 8 m if `box`. Returns the number of rejected cubes.
+  std::size_t scan(bool box) {
+    octomap::Pointcloud cloud = test::wallAndGround(16, 64, 1440);
+    if (box) {
+      for (octomap::point3d& p : cloud) {
+        const octomap::point3d front = p * (8 / p.x());
+        if (p.x() > 8 && std::abs(front.y()) < 0.6F && front.z() < -0.3F) p = front;
+      }
+    }
+    const ScanPoints points = test::scanOf(cloud, 1);
+    const ScanTrace trace = traceScan(map_, points, sensor_, ++scans_, {.resolution = kCube});
+    ground_.update(map_, trace);
+    const SensorView view(KeySpace(kCube), octomap::pose6d{});
+    free_space_.observe(map_, trace, view.origin());
+    removed_.clear();
+    const std::size_t rejected = moving_.reject(map_, trace, free_space_, removed_);
+    const RangeImage image(measureProjection({}, points), points);
+    moving_.remember(scans_, {{}, {}, view, std::make_shared<Visibility>(image, points, config_.visibility, kCube)});
+    return rejected;
+  }
+  /// Cubes of the map in the front of the box, so high above the ground [m].
+  int cubesOfBox(double from, double to) const {
+    int count = 0;
+    for (int y = -6; y < 6; ++y) {
+      for (int z = static_cast<int>((from - 1.7) / kCube); z < static_cast<int>((to - 1.7) / kCube); ++z) {
+        for (int x = 79; x <= 80; ++x)
+          count +=
+              test::isOccupied(map_, {static_cast<key_type>(kTreeMaxVal + x), static_cast<key_type>(kTreeMaxVal + y),
+                                      static_cast<key_type>(kTreeMaxVal + z)});
+      }
+    }
+    return count;
+  }
+
+ private:
+  OcTreeKey sensor_{kTreeMaxVal, kTreeMaxVal, kTreeMaxVal};
+  RemovalConfig config_;
+  RegionMap map_ = test::emptyMap();
+  GroundEstimation ground_;
+  FreeSpace free_space_;
+  MovingHits moving_;
+  std::uint32_t scans_ = 0;
+  std::vector<RemovedCubesOf> removed_;
+};
+
+TEST(MovingHits, AreNoneWhereEverythingStands) {
+  Place place;
+  for (int i = 0; i < 12; ++i) EXPECT_EQ(place.scan(true), 0U);
+  EXPECT_GT(place.cubesOfBox(0.3, 1.3), 50);
+}
+
+TEST(MovingHits, AreAllOfABoxThatComesIntoTheVoidWithItsFeet) {
+  RemovalConfig config;
+  config.look_back.enabled = false;
+  Place place(config);
+  for (int i = 0; i < 8; ++i) place.scan(false);
+  EXPECT_GT(place.scan(true), 50U);
+  EXPECT_EQ(place.cubesOfBox(0.3, 1.3), 0);
+}
+
+TEST(MovingHits, AreFoundByLookingBack) {
+  RemovalConfig config;
+  config.free_space.tau_f = 7;
+  Place place(config);
+  for (int i = 0; i < 6; ++i) place.scan(false);  // two scans remembered, and no void yet
+  EXPECT_GT(place.scan(true), 50U);
+  EXPECT_EQ(place.cubesOfBox(0.3, 1.3), 0);
+}
+
+TEST(MovingHits, WithoutVoidAndLookingBackGoIntoTheMap) {
+  RemovalConfig config;
+  config.free_space.tau_f = 7;
+  config.look_back.enabled = false;
+  Place place(config);
+  for (int i = 0; i < 6; ++i) place.scan(false);
+  EXPECT_EQ(place.scan(true), 0U);
+  EXPECT_GT(place.cubesOfBox(0.3, 1.3), 50);
+}
+
+TEST(MovingHits, ThatStayComeIntoTheMap) {
+  RemovalConfig config;
+  config.free_space.tau_r = 10;
+  Place place(config);
+  for (int i = 0; i < 8; ++i) place.scan(false);
+  for (int i = 0; i < 30; ++i) place.scan(true);
+  EXPECT_GT(place.cubesOfBox(0.3, 1.3), 50);
+}
+
+}  // namespace
+}  // namespace rhmap

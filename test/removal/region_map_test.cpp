@@ -1,0 +1,123 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "region_map.hpp"
+
+#include <gtest/gtest.h>
+
+#include <set>
+#include <tuple>
+
+#include "rhmap/octree/octree.hpp"
+#include "small_world.hpp"
+#include "tree_reader.hpp"
+
+namespace rhmap {
+namespace {
+
+using test::emptyMap;
+using test::occupy;
+using test::RandomCubes;
+
+class RegionSizes : public testing::TestWithParam<int> {};
+INSTANTIATE_TEST_SUITE_P(Cubes, RegionSizes, testing::Values(4, 8, 16));
+
+TEST_P(RegionSizes, EachCubeHasOneBitInOneOctant) {
+  const RegionMap map = emptyMap(GetParam());
+  RandomCubes cubes(2, 2000);
+  for (int i = 0; i < 5000; ++i) {
+    const OcTreeKey cube = cubes();
+    const Region region{.x = static_cast<key_type>(cube[0] >> map.bits()),
+                        .y = static_cast<key_type>(cube[1] >> map.bits()),
+                        .z = static_cast<key_type>(cube[2] >> map.bits()),
+                        .plane = {},
+                        .octants = {}};
+    ASSERT_LT(map.octantOf(cube), map.octants());
+    ASSERT_EQ(cubeOf(map.cornerOf(region, map.octantOf(cube)), bitOf(cube)), cube);
+  }
+}
+
+TEST_P(RegionSizes, HeightsFollowInsertionsAndRemovals) {
+  RegionMap map = emptyMap(GetParam());
+  RandomCubes cubes(3);
+  std::set<std::tuple<int, int, int>> all;
+  for (int i = 0; i < 300; ++i) {
+    const OcTreeKey cube = cubes();
+    occupy(map, cube);
+    all.insert({cube[0], cube[1], cube[2]});
+  }
+  for (int round = 0; round < 2; ++round) {
+    map.forEachColumn([&](Column& column) {
+      map.refreshHeights(column);
+      int low = 1 << 16, high = -1;
+      for (const auto& [x, y, z] : all) {
+        if (x >> map.bits() != column.x || y >> map.bits() != column.y) continue;
+        low = std::min(low, z), high = std::max(high, z);
+      }
+      if (high < 0) {
+        EXPECT_LT(column.h_max, column.h_min);
+      } else {
+        EXPECT_EQ(column.h_min, low);
+        EXPECT_EQ(column.h_max, high);
+      }
+    });
+    for (auto it = all.begin(); it != all.end();) {  // every second one goes
+      const OcTreeKey cube(static_cast<key_type>(std::get<0>(*it)), static_cast<key_type>(std::get<1>(*it)),
+                           static_cast<key_type>(std::get<2>(*it)));
+      occupy(map, cube).remove(maskOf(bitOf(cube)));
+      it = all.erase(it);
+      if (it != all.end()) ++it;
+    }
+  }
+}
+
+TEST_P(RegionSizes, AColumnIsReadFromTheTree) {
+  OcTree tree(0.1);
+  RandomCubes cubes(4);
+  for (int i = 0; i < 3000; ++i) tree.updateNode(cubes(), i % 3 != 0);
+  for (key_type x = 0; x < 8; ++x)  // a pruned leaf of 8 cubes
+    for (key_type y = 0; y < 8; ++y)
+      for (key_type z = 0; z < 8; ++z)
+        tree.setNodeValue(OcTreeKey(static_cast<key_type>(kTreeMaxVal + x), static_cast<key_type>(kTreeMaxVal + y),
+                                    static_cast<key_type>(kTreeMaxVal + 64 + z)),
+                          2.0F);
+  RegionMap map(GetParam(), [&](key_type x, key_type y, int size) { return readColumn(tree, x, y, size); });
+  std::size_t occupied = 0;
+  for (int x = -24; x < 24; ++x) {
+    for (int y = -24; y < 24; ++y) {
+      map.getOrCreate(static_cast<key_type>((kTreeMaxVal + x) >> map.bits()),
+                      static_cast<key_type>((kTreeMaxVal + y) >> map.bits()));
+      for (int z = -24; z < 80; ++z) {
+        const OcTreeKey cube(static_cast<key_type>(kTreeMaxVal + x), static_cast<key_type>(kTreeMaxVal + y),
+                             static_cast<key_type>(kTreeMaxVal + z));
+        const OcTreeNode* node = tree.search(cube);
+        const bool expected = node != nullptr && tree.isNodeOccupied(node);
+        ASSERT_EQ(test::isOccupied(map, cube), expected) << x << ' ' << y << ' ' << z;
+        occupied += expected;
+      }
+    }
+  }
+  EXPECT_GT(occupied, 1000U);
+}
+
+TEST(RegionMap, ForgetsWhatIsFarAndReadsItAgain) {
+  int reads = 0;
+  RegionMap map(8, [&](key_type, key_type, int) {
+    ++reads;
+    return std::vector<RegionMap::Cubes>();
+  });
+  const OcTreeKey here(kTreeMaxVal, kTreeMaxVal, kTreeMaxVal);
+  map.getOrCreate(kTreeMaxVal >> 3, kTreeMaxVal >> 3);
+  map.getOrCreate((kTreeMaxVal + 400) >> 3, kTreeMaxVal >> 3);
+  map.forgetBeyond(here, 300);
+  EXPECT_EQ(map.numColumns(), 1U);
+  EXPECT_NE(map.find(kTreeMaxVal >> 3, kTreeMaxVal >> 3), nullptr);
+  map.getOrCreate((kTreeMaxVal + 400) >> 3, kTreeMaxVal >> 3);
+  EXPECT_EQ(reads, 3);
+}
+
+TEST(Octant, LayersAreTheCubesOfOneHeight) {
+  for (int bit = 0; bit < 64; ++bit)
+    for (int z = 0; z < 4; ++z) EXPECT_EQ((layerOf(z) & maskOf(bit)) != 0, cubeOf({0, 0, 0}, bit)[2] == z);
+}
+
+}  // namespace
+}  // namespace rhmap

@@ -1,0 +1,62 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "rhmap/removal/removal_config.hpp"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <functional>
+#include <stdexcept>
+#include <string>
+
+namespace rhmap {
+namespace {
+
+using testing::HasSubstr;
+
+TEST(RemovalConfig, AllProfilesAreValid) {
+  for (const std::string_view name : removalProfiles()) EXPECT_NO_THROW(validate(removalProfile(name))) << name;
+}
+
+TEST(RemovalConfig, AnUnknownProfileIsAnsweredWithTheRightOnes) {
+  try {
+    removalProfile("best");
+    FAIL();
+  } catch (const std::invalid_argument& error) {
+    EXPECT_THAT(error.what(), HasSubstr("best"));
+    for (const std::string_view name : removalProfiles()) EXPECT_THAT(error.what(), HasSubstr(std::string(name)));
+  }
+}
+
+TEST(RemovalConfig, AWrongValueIsNamed) {
+  struct Wrong {
+    std::function<void(RemovalConfig&)> change;
+    const char* field;
+    const char* value;
+  };
+  const Wrong all[] = {
+      {[](RemovalConfig& c) { c.region_size = 5; }, "region_size", "5"},
+      {[](RemovalConfig& c) { c.min_range = -1; }, "min_range", "-1"},
+      {[](RemovalConfig& c) { c.min_range = NAN; }, "min_range", "nan"},
+      {[](RemovalConfig& c) { c.ground.iterations = 0; }, "ground.iterations", "0"},
+      {[](RemovalConfig& c) { c.image.columns = 2; }, "image.columns", "2"},
+      {[](RemovalConfig& c) { c.evidence.share = 1.5; }, "evidence.share", "1.5"},
+      {[](RemovalConfig& c) { c.free_space.tau_f = 9; }, "free_space.tau_f", "9"},
+      {[](RemovalConfig& c) { c.look_back.stride = 0; }, "look_back.stride", "0"},
+      {[](RemovalConfig& c) { c.back_end.distance = 0; }, "back_end.distance", "0"},
+  };
+  for (const Wrong& wrong : all) {
+    RemovalConfig config;
+    wrong.change(config);
+    try {
+      validate(config);
+      ADD_FAILURE() << wrong.field;
+    } catch (const std::invalid_argument& error) {
+      EXPECT_THAT(error.what(), HasSubstr(wrong.field));
+      EXPECT_THAT(error.what(), HasSubstr(wrong.value));
+    }
+  }
+}
+
+}  // namespace
+}  // namespace rhmap

@@ -1,0 +1,78 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <algorithm>
+#include <cmath>
+#include <cstdint>
+#include <random>
+#include <vector>
+
+#include "region_map.hpp"
+#include "rhmap/octree/key_space.hpp"
+#include "scan_points.hpp"
+
+namespace rhmap::test {
+
+inline constexpr double kCube = 0.1;  // [m]
+
+/// A map without a tree behind it.
+inline RegionMap emptyMap(int size = 8) {
+  return RegionMap(size, [](key_type, key_type, int) { return std::vector<RegionMap::Cubes>(); });
+}
+
+/// Puts a cube into the map.
+inline Octant& occupy(RegionMap& map, const OcTreeKey& cube) {
+  Column& column =
+      map.getOrCreate(static_cast<key_type>(cube[0] >> map.bits()), static_cast<key_type>(cube[1] >> map.bits()));
+  Region& region = map.getOrCreate(column, static_cast<key_type>(cube[2] >> map.bits()));
+  Octant& octant = region.octants[map.octantOf(cube)];
+  octant.occupied |= maskOf(bitOf(cube));
+  column.stale = true;
+  return octant;
+}
+
+inline bool isOccupied(const RegionMap& map, const OcTreeKey& cube) {
+  const Region* region = map.regionOf(cube);
+  return region != nullptr && (region->octants[map.octantOf(cube)].occupied & maskOf(bitOf(cube))) != 0;
+}
+
+/// Cubes about the middle of the key space.
+class RandomCubes {
+ public:
+  explicit RandomCubes(unsigned seed, int reach = 20) : random_(seed), near_(-reach, reach) {}
+  OcTreeKey operator()() { return {at(), at(), at()}; }
+
+ private:
+  key_type at() { return static_cast<key_type>(kTreeMaxVal + near_(random_)); }
+  std::mt19937 random_;
+  std::uniform_int_distribution<int> near_;
+};
+
+/// A scan from points in the sensor's frame; the sensor stands at the origin.
+inline ScanPoints scanOf(const octomap::Pointcloud& cloud, double min_range = 0) {
+  ScanPoints points;
+  locatePoints(KeySpace(kCube), cloud, octomap::pose6d(), min_range, -1, points);
+  return points;
+}
+
+/// What a LiDAR of even beams from +10 to -20 degrees at the origin sees of the plane x = `wall` and of the ground
+/// 1.7 m below; no returns farther than 100 m.
+inline octomap::Pointcloud wallAndGround(double wall, int rows = 64, int columns = 720) {
+  octomap::Pointcloud cloud;
+  for (int i = 0; i < rows; ++i) {
+    const double elevation = (10.0 - 30.0 * i / (rows - 1)) * 3.14159265358979 / 180;
+    for (int j = 0; j < columns; ++j) {
+      const double azimuth = (j + 0.5) * 2 * 3.14159265358979 / columns;
+      const double x = std::cos(elevation) * std::cos(azimuth), y = std::cos(elevation) * std::sin(azimuth),
+                   z = std::sin(elevation);
+      double range = 100;
+      if (x > 1e-6) range = std::min(range, wall / x);
+      if (z < -1e-6) range = std::min(range, -1.7 / z);
+      if (range < 100)
+        cloud.push_back(static_cast<float>(range * x), static_cast<float>(range * y), static_cast<float>(range * z));
+    }
+  }
+  return cloud;
+}
+
+}  // namespace rhmap::test

@@ -1,0 +1,87 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "visibility.hpp"
+
+#include <gtest/gtest.h>
+
+#include <random>
+
+#include "small_world.hpp"
+
+namespace rhmap {
+namespace {
+
+using test::kCube;
+
+Visibility visibilityOf(const octomap::Pointcloud& cloud, const VisibilityConfig& config = {}) {
+  const ScanPoints scan = test::scanOf(cloud);
+  return Visibility(RangeImage(measureProjection({}, scan), scan), scan, config, kCube);
+}
+
+TEST(SensorView, IsTheInverseOfThePose) {
+  const KeySpace keys(kCube);
+  std::mt19937 random(5);
+  std::normal_distribution<float> normal;
+  for (int i = 0; i < 200; ++i) {
+    const octomap::pose6d pose(20 * normal(random), 20 * normal(random), normal(random), normal(random), normal(random),
+                               normal(random));
+    const SensorView view(keys, pose);
+    const OcTreeKey cube(static_cast<key_type>(kTreeMaxVal + 100 + i), static_cast<key_type>(kTreeMaxVal - i),
+                         kTreeMaxVal);
+    const auto seen = view(cube);
+    const octomap::point3d expected = pose.inv().transform(keys.keyToCoord(cube));
+    EXPECT_NEAR(seen[0], expected.x(), 5e-3);
+    EXPECT_NEAR(seen[1], expected.y(), 5e-3);
+    EXPECT_NEAR(seen[2], expected.z(), 5e-3);
+  }
+}
+
+TEST(Visibility, SeesThroughWhatIsBeforeAWallAndNotWhatIsInOrBehindIt) {
+  const Visibility visibility = visibilityOf(test::wallAndGround(20));
+  EXPECT_EQ(visibility.at({15, 0, 0}), Look::kSeenThrough);
+  EXPECT_EQ(visibility.at({19.9F, 0, 0}), Look::kFilled);
+  EXPECT_EQ(visibility.at({25, 0, 0}), Look::kUnknown);
+  EXPECT_EQ(visibility.at({5, 0, 5}), Look::kUnknown);       // above the field of view
+  EXPECT_EQ(visibility.at({-10, 0, 0.5F}), Look::kUnknown);  // where nothing came back
+}
+
+TEST(Visibility, NeverSeesThroughLevelGround) {
+  const Visibility visibility = visibilityOf(test::wallAndGround(60));
+  for (int x = -500; x <= 500; x += 3)
+    for (int y = -200; y <= 200; y += 7)
+      EXPECT_NE(visibility.at({static_cast<float>(x) / 10, static_cast<float>(y) / 10, -1.75F}), Look::kSeenThrough)
+          << x << ' ' << y;
+  EXPECT_EQ(visibility.at({10, 0, -1}), Look::kSeenThrough);
+}
+
+TEST(Visibility, WithNothingAroundAPlaceItCannotTell) {
+  octomap::Pointcloud cloud;
+  cloud.push_back(20, 0, 0);
+  EXPECT_EQ(visibilityOf(cloud).at({0, 10, 0}), Look::kUnknown);
+}
+
+TEST(Visibility, HidesNothingThatIsSeenThrough) {
+  std::mt19937 random(6);
+  std::uniform_real_distribution<float> unit(0, 1);
+  int hidden = 0;
+  for (int scene = 0; scene < 4; ++scene) {
+    octomap::Pointcloud cloud = test::wallAndGround(12 + 8 * scene);
+    for (octomap::point3d& p : cloud)  // holes and obstacles
+      if (unit(random) < 0.2F) p *= 0.3F + 0.7F * unit(random);
+    const Visibility visibility = visibilityOf(cloud);
+    for (int i = 0; i < 2000; ++i) {
+      const std::array<float, 3> centre{80 * (unit(random) - 0.5F), 80 * (unit(random) - 0.5F),
+                                        6 * (unit(random) - 0.5F)};
+      const float half = 0.4F;
+      if (!visibility.hides(centre, 1.7321F * half)) continue;
+      ++hidden;
+      for (int k = 0; k < 100; ++k) {
+        const auto off = [&] { return half * (2 * unit(random) - 1); };
+        ASSERT_NE(visibility.at({centre[0] + off(), centre[1] + off(), centre[2] + off()}), Look::kSeenThrough);
+      }
+    }
+  }
+  EXPECT_GT(hidden, 500);
+}
+
+}  // namespace
+}  // namespace rhmap
