@@ -13,9 +13,12 @@ install(DIRECTORY ${PROJECT_SOURCE_DIR}/include/rhmap DESTINATION ${CMAKE_INSTAL
         FILES_MATCHING PATTERN "*.hpp" PATTERN "*.h")
 install(EXPORT rhmapTargets NAMESPACE rhmap:: DESTINATION ${RHMAP_PACKAGE_DIR})
 
+if(TARGET rhmap::render)
+  set(RHMAP_HAS_RENDER ON)
+endif()
 configure_package_config_file(${CMAKE_CURRENT_LIST_DIR}/rhmapConfig.cmake.in ${PROJECT_BINARY_DIR}/rhmapConfig.cmake
                               INSTALL_DESTINATION ${RHMAP_PACKAGE_DIR})
 write_basic_package_version_file(${PROJECT_BINARY_DIR}/rhmapConfigVersion.cmake COMPATIBILITY SameMajorVersion)
 install(FILES ${PROJECT_BINARY_DIR}/rhmapConfig.cmake ${PROJECT_BINARY_DIR}/rhmapConfigVersion.cmake
-              ${CMAKE_CURRENT_LIST_DIR}/rhmap-octomap.cmake
+              ${CMAKE_CURRENT_LIST_DIR}/rhmap-octomap.cmake ${CMAKE_CURRENT_LIST_DIR}/rhmap-osmesa.cmake
         DESTINATION ${RHMAP_PACKAGE_DIR})

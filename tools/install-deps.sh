@@ -5,7 +5,7 @@
 set -euo pipefail
 
 main_packages=(g++ cmake ninja-build liboctomap-dev libeigen3-dev libhwy-dev libcli11-dev libfmt-dev nlohmann-json3-dev
-  xz-utils bzip2)
+  libosmesa6-dev libpng-dev libfreetype-dev fonts-dejavu-core xz-utils bzip2)
 test_packages=(libgtest-dev libgmock-dev libbenchmark-dev libdynamicedt3d-dev libfcl-dev libompl-dev octomap-tools
   python3-numpy)
 

@@ -59,6 +59,7 @@ int run(int argc, char** argv) {
   rhmap::tools::addConvert(app);
   rhmap::tools::addEvaluate(app);
   rhmap::tools::addSimulate(app);
+  rhmap::tools::addRender(app);
   try {
     checkVerb(app, argc, argv);
     app.parse(argc, argv);

@@ -14,5 +14,6 @@ void addInfo(CLI::App& app);
 void addConvert(CLI::App& app);
 void addEvaluate(CLI::App& app);
 void addSimulate(CLI::App& app);
+void addRender(CLI::App& app);
 
 }  // namespace rhmap::tools

@@ -21,6 +21,7 @@ const std::map<std::string, std::set<std::string>> kMayInclude{
     {"baseline", {"core", "octree"}},
     {"eval", {"core", "octree", "io"}},
     {"removal", {"core", "octree"}},
+    {"render", {"core", "octree"}},
     {"sim", {}},
 };
 
