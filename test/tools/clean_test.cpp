@@ -85,7 +85,7 @@ TEST_F(CleanTest, SummarisesForPeople) {
   for (const std::string part : {"sequence  street, scans 0-4\n",
                                  "settings  profile fast, resolution 0.1 m, regions of 8 cubes, range 2.7 m to any",
                                  "scans     5\n", " dropped\n", " rejected, ", " removed, ", "time per scan, median",
-                                 "  insert ", " ms\n", "written   clean.bt ("})
+                                 "  regions ", " ms\n", "written   clean.bt ("})
     EXPECT_NE(text.find(part), std::string::npos) << part << "\n" << text;
   EXPECT_EQ(nlohmann::json::parse(bytes("summary.json"))["profile"], "fast");
 }
