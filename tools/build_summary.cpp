@@ -42,7 +42,8 @@ std::string scansText(const BuildSummary& summary) {
                       options.max_range ? fmt::format("{} m", *options.max_range) : "any",
                       options.threads == 1 ? "1 thread" : fmt::format("{} threads", options.threads));
   text += fmt::format("scans     {}\n", grouped(summary.frames.last - summary.frames.first + 1));
-  text += fmt::format("points    {}, and {} dropped\n", grouped(summary.points), grouped(summary.dropped));
+  text +=
+      fmt::format("points    {}, and {} dropped\n", grouped(summary.points.inserted), grouped(summary.points.dropped));
   return text;
 }
 
@@ -77,11 +78,11 @@ nlohmann::ordered_json toJson(const BuildSummary& summary) {
   const auto orNull = [](const auto& value) { return value ? nlohmann::ordered_json(*value) : nullptr; };
   const BuildOptions& options = summary.options;
   nlohmann::ordered_json json{
-      {"sequence", options.sequence},     {"first_scan", summary.frames.first},
-      {"last_scan", summary.frames.last}, {"resolution_m", options.resolution},
-      {"min_range_m", options.min_range}, {"max_range_m", orNull(options.max_range)},
-      {"threads", options.threads},       {"scans", summary.frames.last - summary.frames.first + 1},
-      {"points", summary.points},         {"dropped_points", summary.dropped}};
+      {"sequence", options.sequence},      {"first_scan", summary.frames.first},
+      {"last_scan", summary.frames.last},  {"resolution_m", options.resolution},
+      {"min_range_m", options.min_range},  {"max_range_m", orNull(options.max_range)},
+      {"threads", options.threads},        {"scans", summary.frames.last - summary.frames.first + 1},
+      {"points", summary.points.inserted}, {"dropped_points", summary.points.dropped}};
   json["maps"] = nlohmann::ordered_json::array();
   for (const MapFigures& map : summary.maps) {
     json["maps"].push_back({{"mapper", map.mapper},

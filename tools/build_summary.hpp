@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include <cstddef>
 #include <nlohmann/json_fwd.hpp>
 #include <optional>
 #include <string>
 #include <vector>
 
 #include "arguments.hpp"
+#include "mapping.hpp"
 #include "written_file.hpp"
 
 namespace rhmap::tools {
@@ -26,28 +26,11 @@ struct BuildOptions {
   std::string json;  ///< file of the summary, "-" is stdout; empty: none
 };
 
-/// One mapper on all scans.
-struct MapFigures {
-  std::string mapper;
-  std::vector<double> seconds;  ///< per scan, insertion only
-  std::size_t nodes = 0;
-  std::size_t leaves = 0;
-  std::size_t memory_usage = 0;                ///< what the tree says of itself [bytes]
-  std::optional<std::size_t> resident_memory;  ///< physical memory that its end gives back [bytes]
-};
-
-/// Whether two mappers wrote the same bytes.
-struct Identity {
-  bool ot = false;
-  bool bt = false;
-};
-
 /// What `rhmap build` tells.
 struct BuildSummary {
   BuildOptions options;
   FrameRange frames;
-  std::size_t points = 0;   ///< inserted
-  std::size_t dropped = 0;  ///< not finite, or nearer than the minimum range
+  PointCounts points;
   std::vector<MapFigures> maps;
   std::optional<Identity> identity;
   std::vector<WrittenFile> files;

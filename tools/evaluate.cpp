@@ -19,6 +19,7 @@
 #include "evaluation_table.hpp"
 #include "load_map.hpp"
 #include "mapper_rows.hpp"
+#include "octomap_rows.hpp"
 #include "paper_tables.hpp"
 #include "paper_windows.hpp"
 #include "rhmap/io/cloud_reader.hpp"
@@ -49,6 +50,7 @@ constexpr const char* kFooter =
     "  rhmap evaluate build/data/kitti_raw_0005 --frames 0-4\n"
     "  rhmap evaluate build/data/kitti_raw_0005 --frames 0-4 --profile fast,default --json scores.json\n"
     "  rhmap evaluate build/data/kitti_raw_0005 --frames 0-4 --front-end-only --protocol rhmap,kth\n"
+    "  rhmap evaluate build/data/kitti_raw_0005 --frames 0-1 --octomap --protocol rhmap\n"
     "  rhmap evaluate build/data/kitti_raw_0005 --frames 0-1 --ablation\n"
     "  rhmap evaluate build/data --tables --windows kitti_raw_0005:0-4 --profile default";
 
@@ -108,8 +110,13 @@ void evaluate(const EvaluateOptions& options) {
 
   std::vector<eval::Estimate> elsewhere;
   if (map) elsewhere.push_back(map->row);
-  auto [runs, scores] = evaluateRows(*sequence, evaluationConfig(options, frames), options.removal.resolution,
-                                     rowsOf(options), elsewhere, "");
+  const eval::EvaluationConfig config = evaluationConfig(options, frames);
+  std::optional<OctomapBaseline> octomap;  // lives as long as its rows
+  if (options.octomap) {
+    octomap = runOctomapBaseline(*sequence, config.window, options.removal.resolution);
+    for (eval::Estimate& row : octomapRows(*octomap->map, octomap->ground)) elsewhere.push_back(std::move(row));
+  }
+  auto [runs, scores] = evaluateRows(*sequence, config, options.removal.resolution, rowsOf(options), elsewhere, "");
   const std::vector<eval::Score> online = onlineScores(runs);
   scores.insert(scores.end(), online.begin(), online.end());
   if (options.json != "-") {
@@ -158,6 +165,7 @@ void addEvaluate(CLI::App& app) {
       ->allow_extra_args(false)
       ->check(oneOf("protocol", kProtocols));
   addRemovalOptions(*verb, options->removal);
+  verb->add_flag("--octomap", options->octomap, "Rows of what OctoMap's rays leave, with and without the ground kept");
   verb->add_option("--ego-radius", options->ego_radius,
                    "Protocol kth: nearer points of classes 0 and 1 move; 3 in DynamicMap_Benchmark")
       ->type_name("M")
@@ -168,7 +176,7 @@ void addEvaluate(CLI::App& app) {
   verb->add_flag(
           "--tables", options->tables,
           "The paper's Tables I and II; SEQUENCE is the folder of SemanticKITTI, rows are --profile's (default: all)")
-      ->excludes("--ablation", "--map", "--frames", "--front-end-only");
+      ->excludes("--ablation", "--map", "--octomap", "--frames", "--front-end-only");
   verb->add_option("--windows", options->windows, "Scans of the tables (default: " + paperWindows() + ")")
       ->type_name("SEQUENCE:A-B,...")
       ->delimiter(',')

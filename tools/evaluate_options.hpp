@@ -17,6 +17,7 @@ struct EvaluateOptions {
   std::vector<std::string> profiles;  ///< of the mapper's rows; empty: what the verb says
   std::string map;                    ///< cleaned map or cloud; empty: none
   bool ablation = false;              ///< the mapper's rows are those of ablationRows()
+  bool octomap = false;               ///< OctoMap's rows as well
   bool tables = false;                ///< the paper's tables
   std::vector<std::string> windows;   ///< of the tables, "SEQUENCE:A-B"; empty: the paper's
   RemovalOptions removal;

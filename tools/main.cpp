@@ -56,6 +56,7 @@ int run(int argc, char** argv) {
   rhmap::tools::addBuild(app);
   rhmap::tools::addClean(app);
   rhmap::tools::addInfo(app);
+  rhmap::tools::addCompare(app);
   rhmap::tools::addConvert(app);
   rhmap::tools::addEvaluate(app);
   rhmap::tools::addSimulate(app);

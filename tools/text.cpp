@@ -25,13 +25,14 @@ std::string byteSize(std::uint64_t bytes) {
   return fmt::format("{:.1f} {}", value, kUnits[unit]);
 }
 
-void writeJson(const std::string& path, const nlohmann::ordered_json& json) {
-  const std::string text = json.dump(2) + "\n";
+void writeText(const std::string& path, const std::string& text) {
   if (path == "-") {
     fmt::print("{}", text);
   } else {
     writeFileWhole(path, [&](std::ostream& out) { out << text; });
   }
 }
+
+void writeJson(const std::string& path, const nlohmann::ordered_json& json) { writeText(path, json.dump(2) + "\n"); }
 
 }  // namespace rhmap::tools

@@ -13,6 +13,9 @@ std::string grouped(std::uint64_t number);
 /// Bytes in the decimal unit that fits, e.g. 5.6 MB.
 std::string byteSize(std::uint64_t bytes);
 
+/// Writes text to a file, whole or not at all, or to stdout ("-").
+void writeText(const std::string& path, const std::string& text);
+
 /// Writes JSON to a file, whole or not at all, or to stdout ("-").
 void writeJson(const std::string& path, const nlohmann::ordered_json& json);
 

@@ -11,6 +11,7 @@ namespace rhmap::tools {
 void addBuild(CLI::App& app);
 void addClean(CLI::App& app);
 void addInfo(CLI::App& app);
+void addCompare(CLI::App& app);
 void addConvert(CLI::App& app);
 void addEvaluate(CLI::App& app);
 void addSimulate(CLI::App& app);

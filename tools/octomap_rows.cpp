@@ -1,0 +1,51 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "octomap_rows.hpp"
+
+#include "progress_bar.hpp"
+
+namespace rhmap::tools {
+
+OctomapBaseline runOctomapBaseline(const io::ScanSequence& sequence, const eval::SequenceWindow& window,
+                                   double resolution) {
+  OctomapBaseline baseline{std::make_unique<OcTree>(resolution), {}};
+  RemovalConfig config = fastProfile();  // for its ground
+  config.min_range = window.min_range;
+  config.max_range = window.max_range.value_or(-1);
+  RhMap ground_map(resolution, config);
+  const std::size_t last = window.last.value_or(sequence.size() - 1);
+  ProgressBar bar("octomap", last - window.first + 1);
+  for (std::size_t i = window.first; i <= last; ++i) {
+    const io::Scan scan = sequence.scan(i);
+    octomap::Pointcloud points;
+    for (const octomap::point3d& point : scan.points) {
+      const double range = point.norm();
+      if (range >= window.min_range && (!window.max_range || range <= *window.max_range)) points.push_back(point);
+    }
+    points.transform(scan.pose);
+    baseline.map->insertPointCloud(points, scan.pose.trans());
+    ground_map.insertScan(scan.points, scan.pose);
+    addGround(scan, ground_map, baseline.ground);
+    bar.advance();
+  }
+  return baseline;
+}
+
+void addGround(const io::Scan& scan, const RhMap& map, KeySet& ground) {
+  OcTreeKey key;
+  for (const octomap::point3d& point : scan.points)
+    if (map.coordToKeyChecked(scan.pose.transform(point), key) && map.isGround(key)) ground.insert(key);
+}
+
+std::vector<eval::Estimate> octomapRows(const OcTree& map, const KeySet& ground) {
+  const auto occupied = [&map](const octomap::point3d& point) {
+    const OcTreeNode* node = map.search(point);
+    return node != nullptr && map.isNodeOccupied(node);
+  };
+  const auto occupied_or_ground = [&map, &ground, occupied](const octomap::point3d& point) {
+    OcTreeKey key;
+    return occupied(point) || (map.coordToKeyChecked(point, key) && ground.contains(key));
+  };
+  return {eval::keptBy("octomap", occupied), eval::keptBy("octomap, ground kept", occupied_or_ground)};
+}
+
+}  // namespace rhmap::tools
