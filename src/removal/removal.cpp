@@ -56,7 +56,8 @@ ScanReport RhMap::Removal::process(const octomap::Pointcloud& points, const octo
   report.points = points_.given;
   report.dropped = points_.dropped;
   OcTreeKey sensor;
-  if (points_.size() == 0 || !tree_.coordToKeyChecked(pose.trans(), sensor)) return report;
+  if (!tree_.coordToKeyChecked(pose.trans(), sensor)) report.dropped = report.points;
+  if (report.dropped == report.points) return report;
   ++scan_;
   forgetFar(sensor);
   clock.charge(Stage::kTransform);
