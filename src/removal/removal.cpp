@@ -12,7 +12,8 @@ namespace rhmap {
 namespace {
 
 constexpr std::uint32_t kScansBetweenForgetting = 16;
-constexpr double kSlack = 20;  // [m] beyond what is needed, so that little is forgotten and read again
+constexpr std::size_t kEnoughToMeasure = 1000;  // points of a scan that show what the next ones will look like
+constexpr double kSlack = 20;                   // [m] beyond what is needed, so that little is forgotten and read again
 
 double processorTime() {
   timespec now{};
@@ -73,8 +74,9 @@ ScanReport RhMap::Removal::process(const octomap::Pointcloud& points, const octo
   clock.charge(Stage::kGround);
 
   // Range image and scan contexts. Sec. III-C.2
-  if (!projection_) projection_ = measureProjection(config_.image, points_);
-  const RangeImage image(*projection_, points_);
+  const Projection projection = projection_ ? *projection_ : measureProjection(config_.image, points_);
+  if (points_.size() >= kEnoughToMeasure) projection_ = projection;
+  const RangeImage image(projection, points_);
   ScanContext context = contextOf(pose, trace, sensor, image);
   clock.charge(Stage::kImage);
 
