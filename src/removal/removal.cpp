@@ -148,6 +148,7 @@ void RhMap::Removal::lookAgain(const ScanContext& keyframe, bool protect, ScanRe
 std::size_t RhMap::Removal::write(const ScanTrace& trace, const octomap::Pointcloud& points,
                                   const octomap::pose6d& pose) {
   ScanMasks cells;
+  const bool has_free = config_.carve || config_.removed == RemovedCubes::kFree;
   if (config_.carve) markFree(points, pose, cells);
   std::size_t inserted = 0;
   const std::size_t octants = std::min<std::size_t>(8, regions_.octants());
@@ -163,7 +164,7 @@ std::size_t RhMap::Removal::write(const ScanTrace& trace, const octomap::Pointcl
         const std::uint64_t hit = octant.hit & octant.occupied;
         hits.hit[(word >> 6 & 7) + o] = hit;
         cubes += static_cast<std::size_t>(std::popcount(hit));
-        if (config_.carve) forgetFree(regions_.cornerOf(*region, first + o), hit & octant.fresh);
+        if (has_free) forgetFree(regions_.cornerOf(*region, first + o), hit & octant.fresh);
       }
       if (cubes > 0) cells.mark(hits);
       inserted += cubes;
@@ -177,7 +178,7 @@ std::size_t RhMap::Removal::write(const ScanTrace& trace, const octomap::Pointcl
   return inserted;
 }
 
-/// Cubes that are new to the map are as likely as any, however often rays have crossed them before.
+/// Cubes that are new to the map are as likely as any, however often rays have crossed them or scans seen through them.
 void RhMap::Removal::forgetFree(const OcTreeKey& corner, std::uint64_t cubes) {
   forEachBit(cubes, [&](int bit) {
     const OcTreeKey cube = cubeOf(corner, bit);
