@@ -4,6 +4,7 @@
 #include <time.h>
 
 #include <algorithm>
+#include <array>
 
 #include "rhmap/octree/scan_marking.hpp"
 #include "tree_reader.hpp"
@@ -208,6 +209,18 @@ void RhMap::Removal::markFree(const octomap::Pointcloud& points, const octomap::
   });
 }
 
+/// Values above a cube: deleteNode, as OctoMap's, leaves all but the parent's as they were.
+void RhMap::Removal::refreshAbove(const OcTreeKey& cube) {
+  std::array<OcTreeNode*, kTreeDepth> path{};
+  unsigned depth = 0;
+  for (OcTreeNode* node = tree_.getRoot(); node != nullptr && tree_.nodeHasChildren(node);) {
+    path[depth++] = node;
+    const unsigned i = computeChildIdx(cube, static_cast<int>(kTreeDepth - depth));
+    node = tree_.nodeChildExists(node, i) ? tree_.getNodeChild(node, i) : nullptr;
+  }
+  while (depth > 0) path[--depth]->updateOccupancyChildren();
+}
+
 void RhMap::Removal::erase(const RemovalResult& result, ScanReport& report) {
   for (const RemovedCubesOf& removed : result.removed) {
     report.removed += static_cast<std::size_t>(std::popcount(removed.cubes));
@@ -219,6 +232,7 @@ void RhMap::Removal::erase(const RemovalResult& result, ScanReport& report) {
         tree_.deleteNode(cube);
       }
     });
+    refreshAbove(removed.corner);
   }
   report.is_protected += result.is_protected;
 }
