@@ -52,7 +52,7 @@ TEST(RhMap, IsTheSameWithChangeDetection) {
     config.carve = carve;
     RhMap map(0.2, config), watched(0.2, config);
     watched.enableChangeDetection(true);
-    for (std::size_t k = 0; k < 10; ++k) {
+    for (std::size_t k = 0; k < 5; ++k) {
       const ScanReport report = watched.insertScan(street()[k].points, street()[k].pose);
       if (k == 0 && !carve) {
         EXPECT_EQ(watched.numChangesDetected(), report.inserted);
