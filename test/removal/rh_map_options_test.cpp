@@ -13,7 +13,6 @@ namespace {
 
 using test::bytes;
 using test::hitCubes;
-using test::insertAll;
 using test::isOccupied;
 using test::keyOf;
 using test::Scan;
@@ -26,9 +25,9 @@ TEST(RhMap, WorksWithAllProfilesAndSizesOfRegions) {
       config.region_size = size;
       RhMap map(0.1, config);
       std::size_t removed = 0;
-      for (std::size_t k = 0; k < 14; ++k) removed += map.insertScan(street()[k].points, street()[k].pose).removed;
+      for (std::size_t k = 0; k < 10; ++k) removed += map.insertScan(street()[k].points, street()[k].pose).removed;
       removed += map.finish().removed;
-      EXPECT_GT(removed, 50U) << profile << ' ' << size;
+      EXPECT_GT(removed, 20U) << profile << ' ' << size;
       EXPECT_GT(map.size(), 10000U);
     }
   }
@@ -85,22 +84,6 @@ TEST(RhMap, CarvesFreeSpaceAndKeepsWhatIsOccupied) {
   EXPECT_GT(free, 10000U);
 }
 
-TEST(RhMap, MakesRemovedCubesFreeIfAsked) {
-  RemovalConfig config = fastProfile();
-  RhMap unknown(0.1, config);
-  config.removed = RemovedCubes::kFree;
-  RhMap free(0.1, config);
-  insertAll(unknown, street());
-  insertAll(free, street());
-  const auto countFree = [](const OcTree& tree) {
-    std::size_t count = 0;
-    for (auto it = tree.begin_leafs(), end = tree.end_leafs(); it != end; ++it) count += !tree.isNodeOccupied(*it);
-    return count;
-  };
-  EXPECT_EQ(countFree(unknown), 0U);
-  EXPECT_GT(countFree(free), 100U);
-}
-
 TEST(RhMap, WithProtectionRemovesNoCubeThatTheScanHasHit) {
   RemovalConfig config = paperProfile();
   config.protect_hits = true;
@@ -116,7 +99,7 @@ TEST(RhMap, WithProtectionRemovesNoCubeThatTheScanHasHit) {
   EXPECT_GT(removed, 50U);
 }
 
-TEST(RhMap, WhatIsHitAgainIsOccupiedWhateverBecomesOfRemovedCubes) {
+TEST(RhMap, MakesRemovedCubesFreeIfAskedAndOccupiedWhenHitAgain) {
   RemovalConfig config = fastProfile();
   config.context.delta_1 = 0.6;  // much is taken that comes again
   RhMap unknown(0.1, config);
@@ -129,6 +112,7 @@ TEST(RhMap, WhatIsHitAgainIsOccupiedWhateverBecomesOfRemovedCubes) {
     for (const auto& cube : hitCubes(free, scan, config.min_range)) in_map += isOccupied(free, keyOf(cube));
     ASSERT_EQ(in_map, report.inserted);
   }
+  EXPECT_EQ(free.finish().removed, unknown.finish().removed);
   std::size_t free_cubes = 0;
   for (auto it = free.begin_leafs(), end = free.end_leafs(); it != end; ++it) {
     if (it.getDepth() < free.getTreeDepth()) continue;
