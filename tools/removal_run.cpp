@@ -32,6 +32,7 @@ RemovalFigures runRemoval(const io::ScanSequence& sequence, const FrameRange& fr
     const io::Scan scan = sequence.scan(i);
     figures.add(map.insertScan(scan.points, scan.pose));
     figures.dropped += scan.dropped;
+    if (figures.scans % kScansBetweenBytes == 0) figures.bytes.push_back(map.removalMemoryUsage());
     if (after_scan) after_scan(scan, map);
     bar.advance();
   }
@@ -56,6 +57,7 @@ nlohmann::ordered_json toJson(const RemovalFigures& figures) {
     json["median_stage_s"][std::string(nameOf(static_cast<Stage>(s)))] = median(figures.stage_seconds[s]);
   json["finish_s"] = figures.finish_seconds;
   json["scan_s"] = figures.seconds;
+  json["removal_bytes_each_50_scans"] = figures.bytes;
   return json;
 }
 

@@ -14,6 +14,9 @@
 
 namespace rhmap::tools {
 
+/// How often RemovalFigures::bytes is asked for: it takes a millisecond.
+inline constexpr std::size_t kScansBetweenBytes = 50;
+
 /// What the removal did to a part of a sequence, and how long that took.
 struct RemovalFigures {
   std::size_t scans = 0;
@@ -25,7 +28,8 @@ struct RemovalFigures {
   std::size_t keyframes = 0;                               ///< of the back end
   std::vector<double> seconds;                             ///< processor time of each scan [s]
   std::array<std::vector<double>, kStages> stage_seconds;  ///< the same, stage by stage
-  double finish_seconds = 0;  ///< processor time of what was left to do after the last scan [s]
+  std::vector<std::size_t> bytes;  ///< what the removal keeps beside the map, every kScansBetweenBytes scans
+  double finish_seconds = 0;       ///< processor time of what was left to do after the last scan [s]
 
   void add(const ScanReport& report);
 

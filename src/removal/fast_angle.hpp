@@ -7,7 +7,7 @@ namespace rhmap {
 
 inline constexpr float kPi = 3.14159265358979323846F;
 
-/// atan2, to 1e-5 rad: the same on every machine, without branches, so that loops over it become vector code.
+/// atan2, to 1.2e-5 rad: the same on every machine, without branches, so that loops over it become vector code.
 inline float fastAtan2(float y, float x) {
   const float ax = std::fabs(x), ay = std::fabs(y);
   const float larger = ax > ay ? ax : ay, smaller = ax > ay ? ay : ax;

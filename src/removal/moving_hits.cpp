@@ -88,7 +88,9 @@ bool MovingHits::hasCome(const OcTreeKey& cube) const {
 }
 
 void MovingHits::remember(std::uint32_t scan, const ScanContext& context) {
-  if (!config_.look_back.enabled || scan % static_cast<std::uint32_t>(config_.look_back.stride) != 0) return;
+  if (!config_.look_back.enabled || context.visibility == nullptr ||
+      scan % static_cast<std::uint32_t>(config_.look_back.stride) != 0)
+    return;
   past_.push_back({context.view, context.visibility});
   if (past_.size() > static_cast<std::size_t>(config_.look_back.scans)) past_.pop_front();
 }

@@ -4,6 +4,7 @@
 #include <time.h>
 
 #include <algorithm>
+#include <array>
 
 #include "rhmap/octree/scan_marking.hpp"
 #include "tree_reader.hpp"
@@ -12,7 +13,8 @@ namespace rhmap {
 namespace {
 
 constexpr std::uint32_t kScansBetweenForgetting = 16;
-constexpr double kSlack = 20;  // [m] beyond what is needed, so that little is forgotten and read again
+constexpr std::size_t kEnoughToMeasure = 1000;  // points of a scan that show what the next ones will look like
+constexpr double kSlack = 20;                   // [m] beyond what is needed, so that little is forgotten and read again
 
 double processorTime() {
   timespec now{};
@@ -56,7 +58,8 @@ ScanReport RhMap::Removal::process(const octomap::Pointcloud& points, const octo
   report.points = points_.given;
   report.dropped = points_.dropped;
   OcTreeKey sensor;
-  if (points_.size() == 0 || !tree_.coordToKeyChecked(pose.trans(), sensor)) return report;
+  if (!tree_.coordToKeyChecked(pose.trans(), sensor)) report.dropped = report.points;
+  if (report.dropped == report.points) return report;
   ++scan_;
   forgetFar(sensor);
   clock.charge(Stage::kTransform);
@@ -72,8 +75,9 @@ ScanReport RhMap::Removal::process(const octomap::Pointcloud& points, const octo
   clock.charge(Stage::kGround);
 
   // Range image and scan contexts. Sec. III-C.2
-  if (!projection_) projection_ = measureProjection(config_.image, points_);
-  const RangeImage image(*projection_, points_);
+  const Projection projection = projection_ ? *projection_ : measureProjection(config_.image, points_);
+  if (points_.size() >= kEnoughToMeasure) projection_ = projection;
+  const RangeImage image(projection, points_);
   ScanContext context = contextOf(pose, trace, sensor, image);
   clock.charge(Stage::kImage);
 
@@ -145,6 +149,7 @@ void RhMap::Removal::lookAgain(const ScanContext& keyframe, bool protect, ScanRe
 std::size_t RhMap::Removal::write(const ScanTrace& trace, const octomap::Pointcloud& points,
                                   const octomap::pose6d& pose) {
   ScanMasks cells;
+  const bool has_free = config_.carve || config_.removed == RemovedCubes::kFree;
   if (config_.carve) markFree(points, pose, cells);
   std::size_t inserted = 0;
   const std::size_t octants = std::min<std::size_t>(8, regions_.octants());
@@ -160,7 +165,7 @@ std::size_t RhMap::Removal::write(const ScanTrace& trace, const octomap::Pointcl
         const std::uint64_t hit = octant.hit & octant.occupied;
         hits.hit[(word >> 6 & 7) + o] = hit;
         cubes += static_cast<std::size_t>(std::popcount(hit));
-        if (config_.carve) forgetFree(regions_.cornerOf(*region, first + o), hit & octant.fresh);
+        if (has_free) forgetFree(regions_.cornerOf(*region, first + o), hit & octant.fresh);
       }
       if (cubes > 0) cells.mark(hits);
       inserted += cubes;
@@ -174,7 +179,7 @@ std::size_t RhMap::Removal::write(const ScanTrace& trace, const octomap::Pointcl
   return inserted;
 }
 
-/// Cubes that are new to the map are as likely as any, however often rays have crossed them before.
+/// Cubes that are new to the map are as likely as any, however often rays have crossed them or scans seen through them.
 void RhMap::Removal::forgetFree(const OcTreeKey& corner, std::uint64_t cubes) {
   forEachBit(cubes, [&](int bit) {
     const OcTreeKey cube = cubeOf(corner, bit);
@@ -204,6 +209,18 @@ void RhMap::Removal::markFree(const octomap::Pointcloud& points, const octomap::
   });
 }
 
+/// Values above a cube: deleteNode, as OctoMap's, leaves all but the parent's as they were.
+void RhMap::Removal::refreshAbove(const OcTreeKey& cube) {
+  std::array<OcTreeNode*, kTreeDepth> path{};
+  unsigned depth = 0;
+  for (OcTreeNode* node = tree_.getRoot(); node != nullptr && tree_.nodeHasChildren(node);) {
+    path[depth++] = node;
+    const unsigned i = computeChildIdx(cube, static_cast<int>(kTreeDepth - depth));
+    node = tree_.nodeChildExists(node, i) ? tree_.getNodeChild(node, i) : nullptr;
+  }
+  while (depth > 0) path[--depth]->updateOccupancyChildren();
+}
+
 void RhMap::Removal::erase(const RemovalResult& result, ScanReport& report) {
   for (const RemovedCubesOf& removed : result.removed) {
     report.removed += static_cast<std::size_t>(std::popcount(removed.cubes));
@@ -215,6 +232,7 @@ void RhMap::Removal::erase(const RemovalResult& result, ScanReport& report) {
         tree_.deleteNode(cube);
       }
     });
+    refreshAbove(removed.corner);
   }
   report.is_protected += result.is_protected;
 }

@@ -37,6 +37,7 @@ class RhMap::Removal {
   std::size_t write(const ScanTrace& trace, const octomap::Pointcloud& points, const octomap::pose6d& pose);
   void forgetFree(const OcTreeKey& corner, std::uint64_t cubes);
   void markFree(const octomap::Pointcloud& points, const octomap::pose6d& pose, ScanMasks& cells) const;
+  void refreshAbove(const OcTreeKey& cube);
   void erase(const RemovalResult& result, ScanReport& report);
   void forgetFar(const OcTreeKey& sensor);
 

@@ -30,6 +30,16 @@ RhMap* RhMap::create() const { return new RhMap(getResolution(), config()); }
 
 const RemovalConfig& RhMap::config() const { return removal_->config(); }
 
+void RhMap::clear() {
+  OcTree::clear();
+  removal_ = std::make_unique<Removal>(*this, RemovalConfig(config()));
+}
+
+void RhMap::setResolution(double resolution) {
+  OcTree::setResolution(resolution);
+  removal_ = std::make_unique<Removal>(*this, RemovalConfig(config()));
+}
+
 ScanReport RhMap::insertScan(const octomap::Pointcloud& points, const octomap::pose6d& pose) {
   return removal_->process(points, pose, true);
 }

@@ -3,7 +3,7 @@
 
 #include <gtest/gtest.h>
 
-#include <random>
+#include <cmath>
 
 #include "small_world.hpp"
 
@@ -11,37 +11,6 @@ namespace rhmap {
 namespace {
 
 using test::kCube;
-
-TEST(CellGrid, ErodesAndDilatesBy26Neighbours) {
-  std::mt19937 random(10);
-  CellGrid grid(-4, 7, 100, 12);
-  for (int x = -4; x < 8; ++x)
-    for (int y = 7; y < 19; ++y)
-      for (int z = 100; z < 164; ++z)
-        if (random() % 40 != 0) grid.set(x, y, z);
-  CellGrid sparse(-4, 7, 100, 12);
-  for (int i = 0; i < 30; ++i)
-    sparse.set(-3 + static_cast<int>(random() % 10), 8 + static_cast<int>(random() % 10),
-               101 + static_cast<int>(random() % 62));
-  const CellGrid eroded = grid.eroded(), dilated = sparse.dilated();
-  int clear = 0;
-  for (int x = -3; x < 7; ++x) {
-    for (int y = 8; y < 18; ++y) {
-      for (int z = 101; z < 163; ++z) {
-        bool all = true, any = false;
-        for (int d = 0; d < 27; ++d) {
-          all = all && grid.at(x + d % 3 - 1, y + d / 3 % 3 - 1, z + d / 9 - 1);
-          any = any || sparse.at(x + d % 3 - 1, y + d / 3 % 3 - 1, z + d / 9 - 1);
-        }
-        ASSERT_EQ(eroded.at(x, y, z), all);
-        ASSERT_EQ(dilated.at(x, y, z), any);
-        clear += all;
-      }
-    }
-  }
-  EXPECT_GT(clear, 100);
-  EXPECT_FALSE(grid.at(-5, 8, 110));  // outside
-}
 
 /// Scans of a hall with walls 6 m from the sensor in x and y, floor and ceiling 2 m from it.
 class Hall {

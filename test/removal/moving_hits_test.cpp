@@ -18,9 +18,14 @@ class Place {
   explicit Place(const RemovalConfig& config = {})
       : config_(config), ground_(config.ground, kCube), free_space_(config.free_space, kCube), moving_(config) {}
 
-  /// A box of 1.4 m, 1.2 m wide, on the ground at x = 8 m if `box`. Returns the number of rejected cubes.
-  std::size_t scan(bool box) {
+  /// A box of 1.4 m, 1.2 m wide, on the ground at x = 8 m if `box`; a screen of 3 m hides it if `screen`. Returns the
+  /// number of rejected cubes.
+  std::size_t scan(bool box, bool screen = false) {
     octomap::Pointcloud cloud = test::wallAndGround(16, 64, 1440);
+    if (screen) {
+      for (octomap::point3d& p : cloud)
+        if (p.x() > 5 && std::abs(p.y() / p.x() * 5) < 1.5F) p *= 5 / p.x();
+    }
     if (box) {
       for (octomap::point3d& p : cloud) {
         const octomap::point3d front = p * (8 / p.x());
@@ -51,6 +56,9 @@ class Place {
     }
     return count;
   }
+
+  /// Cubes of earlier scans that the last one has taken out of the map.
+  std::size_t numRemoved() const { return removed_.size(); }
 
  private:
   OcTreeKey sensor_{kTreeMaxVal, kTreeMaxVal, kTreeMaxVal};
@@ -103,6 +111,31 @@ TEST(MovingHits, ThatStayComeIntoTheMap) {
   Place place(config);
   for (int i = 0; i < 8; ++i) place.scan(false);
   for (int i = 0; i < 30; ++i) place.scan(true);
+  EXPECT_GT(place.cubesOfBox(0.3, 1.3), 50);
+}
+
+TEST(MovingHits, AreNoneOfWhatHasBeenHitManyTimes) {
+  RemovalConfig config;
+  config.look_back.enabled = false;
+  config.free_space.tau_f = 7;
+  config.free_space.known = 3;
+  for (const int before : {2, 4}) {  // scans of the box before its place is void
+    Place place(config);
+    for (int i = 0; i < before; ++i) place.scan(true);
+    for (int i = 0; i < 12; ++i) place.scan(false);
+    const std::size_t rejected = place.scan(true);
+    EXPECT_EQ(rejected > 50, before == 2) << rejected;
+    EXPECT_EQ(place.cubesOfBox(0.3, 1.3) > 50, before == 4);
+    EXPECT_EQ(place.numRemoved() > 0, before == 2);  // what the map had before is reported
+  }
+}
+
+TEST(MovingHits, AreNotFoundByLookingBackWhereThingsWereHidden) {
+  RemovalConfig config;
+  config.free_space.tau_f = 7;
+  Place place(config);
+  for (int i = 0; i < 6; ++i) place.scan(false, true);
+  EXPECT_EQ(place.scan(true), 0U);
   EXPECT_GT(place.cubesOfBox(0.3, 1.3), 50);
 }
 

@@ -4,6 +4,9 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <map>
+#include <random>
+#include <utility>
 
 #include "small_world.hpp"
 
@@ -57,6 +60,49 @@ TEST(RangeImage, ShowsTheNearestPointOfAPixel) {
     EXPECT_NEAR(image.ranges()[i], 10, 1e-4);
   }
   EXPECT_EQ(shown, 1);
+}
+
+TEST(RangeImage, ShowsTheNearestOfManyPointsInEachPixel) {
+  std::mt19937 random(15);
+  std::normal_distribution<float> normal;
+  octomap::Pointcloud cloud;
+  for (int i = 0; i < 20000; ++i) cloud.push_back(20 * normal(random), 20 * normal(random), 4 * normal(random));
+  const ScanPoints scan = test::scanOf(cloud);
+  const Projection p = measureProjection({.rows = 24, .columns = 180, .fov_up = 15, .fov_down = -15}, scan);
+  const RangeImage image(p, scan);
+  std::map<std::pair<int, int>, std::size_t> nearest;
+  for (std::size_t k = 0; k < scan.size(); ++k) {
+    const double elevation = std::atan2(scan.z[k], std::hypot(scan.x[k], scan.y[k])) * 180 / kPi;
+    const double row = (15 - elevation) / 30 * 23 + 0.5;
+    const double column = (std::atan2(scan.y[k], scan.x[k]) / kPi + 1) / 2 * 180;
+    if (row < 0 || row >= 24) continue;
+    const auto [at, is_new] = nearest.try_emplace({static_cast<int>(row), static_cast<int>(column)}, k);
+    if (!is_new && scan.range[k] < scan.range[at->second]) at->second = k;
+  }
+  std::size_t same = 0;
+  for (const auto& [pixel, k] : nearest)
+    same += image.pointAt(pixel.first, pixel.second) == static_cast<std::int32_t>(k) &&
+            image.at(pixel.first, pixel.second) == scan.range[k];
+  EXPECT_GT(nearest.size(), 3000U);
+  EXPECT_GT(same, nearest.size() * 99 / 100);  // points on the edge of a pixel may fall into the next
+}
+
+TEST(RangeImage, LeavesOutWhatIsAboveOrBelowItsFieldOfView) {
+  octomap::Pointcloud cloud;
+  cloud.push_back(10, 0, 5);
+  cloud.push_back(10, 0, -5);
+  const ScanPoints scan = test::scanOf(cloud);
+  const RangeImage image(measureProjection({.rows = 16, .columns = 90, .fov_up = 10, .fov_down = -10}, scan), scan);
+  for (const std::int32_t k : image.points()) EXPECT_LT(k, 0);
+}
+
+TEST(RangeImage, MeetsItselfBehindTheSensor) {
+  const Projection p{.rows = 16, .columns = 90, .top = 0.2F, .bottom = -0.2F};
+  EXPECT_EQ(p.columnOf(-10, 0.01F), 89);
+  EXPECT_EQ(p.columnOf(-10, -0.01F), 0);
+  EXPECT_GE(p.columnOf(-10, 0), 0);
+  EXPECT_LT(p.columnOf(-10, 0), 90);
+  EXPECT_GE(p.columnOf(-10, -0.0F), 0);
 }
 
 }  // namespace

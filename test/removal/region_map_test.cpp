@@ -3,8 +3,12 @@
 
 #include <gtest/gtest.h>
 
+#include <array>
+#include <cstdlib>
+#include <map>
 #include <set>
 #include <tuple>
+#include <utility>
 
 #include "rhmap/octree/octree.hpp"
 #include "small_world.hpp"
@@ -67,6 +71,47 @@ TEST_P(RegionSizes, HeightsFollowInsertionsAndRemovals) {
       if (it != all.end()) ++it;
     }
   }
+}
+
+TEST_P(RegionSizes, HeightsOfARegionAreThoseOfItsCubes) {
+  RegionMap map = emptyMap(GetParam());
+  RandomCubes cubes(16, 12);
+  std::map<std::array<int, 3>, std::pair<int, int>> heights;
+  for (int i = 0; i < 60; ++i) {
+    const OcTreeKey cube = cubes();
+    occupy(map, cube);
+    auto& [low, high] =
+        heights.try_emplace({cube[0] >> map.bits(), cube[1] >> map.bits(), cube[2] >> map.bits()}, cube[2], cube[2])
+            .first->second;
+    low = std::min(low, int{cube[2]}), high = std::max(high, int{cube[2]});
+  }
+  for (const auto& [at, expected] : heights) EXPECT_EQ(map.heights(*map.find(at[0], at[1], at[2])), expected);
+}
+
+TEST_P(RegionSizes, ForgetsExactlyTheColumnsThatAreFarther) {
+  RegionMap map = emptyMap(GetParam());
+  RandomCubes cubes(17, 500);
+  std::set<std::pair<int, int>> all;
+  for (int i = 0; i < 400; ++i) {
+    const OcTreeKey cube = cubes();
+    occupy(map, cube);
+    all.insert({cube[0] >> map.bits(), cube[1] >> map.bits()});
+  }
+  const OcTreeKey centre(kTreeMaxVal + 100, kTreeMaxVal - 50, kTreeMaxVal);
+  map.forgetBeyond(centre, 300);
+  std::size_t kept = 0;
+  for (const auto& [x, y] : all) {
+    const int middle = map.size() / 2;
+    const bool is_near =
+        std::abs(x * map.size() + middle - centre[0]) <= 300 && std::abs(y * map.size() + middle - centre[1]) <= 300;
+    EXPECT_EQ(map.find(x, y) != nullptr, is_near);
+    kept += is_near;
+  }
+  EXPECT_EQ(map.numColumns(), kept);
+  EXPECT_GT(kept, 50U);
+  std::size_t visited = 0;
+  map.forEachColumn([&](Column& column) { visited += all.count({column.x, column.y}); });
+  EXPECT_EQ(visited, kept);
 }
 
 TEST_P(RegionSizes, AColumnIsReadFromTheTree) {

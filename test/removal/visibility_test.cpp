@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
 #include <random>
 
 #include "small_world.hpp"
@@ -46,10 +47,11 @@ TEST(Visibility, SeesThroughWhatIsBeforeAWallAndNotWhatIsInOrBehindIt) {
 
 TEST(Visibility, NeverSeesThroughLevelGround) {
   const Visibility visibility = visibilityOf(test::wallAndGround(60));
-  for (int x = -500; x <= 500; x += 3)
-    for (int y = -200; y <= 200; y += 7)
-      EXPECT_NE(visibility.at({static_cast<float>(x) / 10, static_cast<float>(y) / 10, -1.75F}), Look::kSeenThrough)
-          << x << ' ' << y;
+  for (const float z : {-1.65F, -1.75F})  // the cubes at the ground's 1.7 m
+    for (int x = -500; x <= 500; x += 3)
+      for (int y = -200; y <= 200; y += 7)
+        EXPECT_NE(visibility.at({static_cast<float>(x) / 10, static_cast<float>(y) / 10, z}), Look::kSeenThrough)
+            << x << ' ' << y << ' ' << z;
   EXPECT_EQ(visibility.at({10, 0, -1}), Look::kSeenThrough);
 }
 
@@ -57,6 +59,19 @@ TEST(Visibility, WithNothingAroundAPlaceItCannotTell) {
   octomap::Pointcloud cloud;
   cloud.push_back(20, 0, 0);
   EXPECT_EQ(visibilityOf(cloud).at({0, 10, 0}), Look::kUnknown);
+}
+
+TEST(Visibility, DoesNotSeeThroughTheEdgeOfAPost) {
+  octomap::Pointcloud cloud = test::wallAndGround(20, 64, 1440);
+  for (octomap::point3d& p : cloud)  // a post of 0.4 m, 6 m away
+    if (p.x() > 6 && std::abs(p.y() / p.x() * 6) < 0.2F) p *= 6 / p.x();
+  const Visibility visibility = visibilityOf(cloud);
+  for (int y = -25; y <= 25; ++y)
+    EXPECT_NE(visibility.at({6, static_cast<float>(y) / 100, 0}), Look::kSeenThrough) << y;
+  for (int y = -15; y <= 15; ++y) EXPECT_EQ(visibility.at({8, static_cast<float>(y) / 100, 0}), Look::kUnknown) << y;
+  EXPECT_EQ(visibility.at({6, 1, 0}), Look::kSeenThrough);
+  EXPECT_EQ(visibility.at({6, -1, 0}), Look::kSeenThrough);
+  EXPECT_EQ(visibility.at({4, 0, 0}), Look::kSeenThrough);  // before it
 }
 
 TEST(Visibility, HidesNothingThatIsSeenThrough) {

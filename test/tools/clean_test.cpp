@@ -75,6 +75,7 @@ TEST_F(CleanTest, SummarisesForPrograms) {
   EXPECT_GT(json["median_scan_s"], 0);
   EXPECT_GT(json["mean_scan_s"], 0);
   EXPECT_EQ(json["scan_s"].size(), 10U);
+  EXPECT_EQ(json["removal_bytes_each_50_scans"].size(), 0U);
   double stages = 0;
   for (const auto& [stage, seconds] : json["median_stage_s"].items()) stages += seconds.get<double>();
   EXPECT_NEAR(stages, json["median_scan_s"], 0.5 * stages);

@@ -52,6 +52,10 @@ class RhMap : public OcTree {
 
   const RemovalConfig& config() const;
 
+  /// These forget what scans have shown, too; so does reading a file.
+  void clear() override;
+  void setResolution(double resolution) override;
+
   /// Inserts a scan and removes what it shows to have moved away. Points in the sensor's frame [m], in any order; the
   /// pose takes them to the map.
   ScanReport insertScan(const octomap::Pointcloud& points, const octomap::pose6d& pose);

@@ -1,0 +1,80 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "cell_grid.hpp"
+
+#include <gtest/gtest.h>
+
+#include <array>
+#include <random>
+
+namespace rhmap {
+namespace {
+
+constexpr int kX = -4, kY = 7, kZ = 100, kSide = 12;
+
+CellGrid randomGrid(unsigned seed, unsigned percent) {
+  std::mt19937 random(seed);
+  CellGrid grid(kX, kY, kZ, kSide);
+  for (int x = kX; x < kX + kSide; ++x)
+    for (int y = kY; y < kY + kSide; ++y)
+      for (int z = kZ; z < kZ + 64; ++z)
+        if (random() % 100 < percent) grid.set(x, y, z);
+  return grid;
+}
+
+template <class F>
+void forEachCellOfTheWindow(F&& visit) {
+  for (int x = kX; x < kX + kSide; ++x)
+    for (int y = kY; y < kY + kSide; ++y)
+      for (int z = kZ; z < kZ + 64; ++z) visit(x, y, z);
+}
+
+bool isAtRim(int x, int y) { return x == kX || y == kY || x == kX + kSide - 1 || y == kY + kSide - 1; }
+
+TEST(CellGrid, ErodesToCellsWithAll26Neighbours) {
+  const CellGrid grid = randomGrid(10, 97), eroded = grid.eroded();
+  int left = 0;
+  forEachCellOfTheWindow([&](int x, int y, int z) {
+    bool all = true;
+    for (int d = 0; d < 27; ++d) all = all && grid.at(x + d % 3 - 1, y + d / 3 % 3 - 1, z + d / 9 - 1);
+    ASSERT_EQ(eroded.at(x, y, z), all) << x << ' ' << y << ' ' << z;  // outside of the window all is clear
+    left += all;
+  });
+  EXPECT_GT(left, 100);
+}
+
+TEST(CellGrid, DilatesToCellsWithOneOf26NeighboursExceptFromTheRim) {
+  const CellGrid grid = randomGrid(11, 2), dilated = grid.dilated();
+  int found = 0;
+  forEachCellOfTheWindow([&](int x, int y, int z) {
+    bool any = false;
+    for (int d = 0; d < 27; ++d) {
+      const int nx = x + d % 3 - 1, ny = y + d / 3 % 3 - 1, nz = z + d / 9 - 1;
+      any = any || (grid.at(nx, ny, nz) && !isAtRim(nx, ny));
+    }
+    ASSERT_EQ(dilated.at(x, y, z), any) << x << ' ' << y << ' ' << z;
+    found += any;
+  });
+  EXPECT_GT(found, 1000);
+}
+
+TEST(CellGrid, IntersectsCellByCell) {
+  const CellGrid a = randomGrid(12, 50), b = randomGrid(13, 50);
+  CellGrid both = a;
+  both.intersect(b);
+  forEachCellOfTheWindow([&](int x, int y, int z) { ASSERT_EQ(both.at(x, y, z), a.at(x, y, z) && b.at(x, y, z)); });
+}
+
+TEST(CellGrid, KnowsNothingOutsideOfItsWindow) {
+  CellGrid grid = randomGrid(14, 100);
+  for (const auto& [x, y, z] : {std::array{kX - 1, kY, kZ}, std::array{kX, kY + kSide, kZ}, std::array{kX, kY, kZ + 64},
+                                std::array{kX, kY, kZ - 1}}) {
+    EXPECT_FALSE(grid.at(x, y, z));
+    grid.set(x, y, z);
+    EXPECT_FALSE(grid.at(x, y, z));
+  }
+  grid.reset(kX + 1, kY, kZ, 4);
+  EXPECT_FALSE(grid.at(kX + 1, kY, kZ));
+}
+
+}  // namespace
+}  // namespace rhmap
