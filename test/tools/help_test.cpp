@@ -31,7 +31,8 @@ TEST_F(HelpTest, ListsTheVerbs) {
 }
 
 TEST_F(HelpTest, EveryExampleRuns) {
-  for (const std::string verb : {"", "build ", "clean ", "compare ", "info ", "convert ", "evaluate ", "simulate ", "render "}) {
+  for (const std::string verb :
+       {"", "build ", "clean ", "compare ", "info ", "convert ", "evaluate ", "simulate ", "render "}) {
     const auto commands = examples(runs(verb + "--help"));
     EXPECT_GE(commands.size(), 2U) << verb;
     for (const std::string& command : commands) runs(command);
