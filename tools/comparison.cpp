@@ -32,6 +32,17 @@ void mapWithBoth(const io::ScanSequence& sequence, Comparison& comparison) {
   for (std::size_t k = 0; k < kinds.size(); ++k) comparison.series[k].seconds = comparison.maps[k].seconds;
 }
 
+/// The cells that the points of a scan lie in, those outside of the map's ranges left out.
+void addHits(const io::Scan& scan, const RhMap& map, KeySet& hits) {
+  const RemovalConfig& config = map.config();
+  OcTreeKey key;
+  for (const octomap::point3d& point : scan.points) {
+    const double range = point.norm();
+    if (range < config.min_range || (config.max_range >= 0 && range > config.max_range)) continue;
+    if (map.coordToKeyChecked(scan.pose.transform(point), key)) hits.insert(key);
+  }
+}
+
 void clean(const io::ScanSequence& sequence, const std::string& profile, Comparison& comparison) {
   RemovalConfig config = removalProfile(profile);
   config.min_range = comparison.options.mapping.min_range;
@@ -41,7 +52,9 @@ void clean(const io::ScanSequence& sequence, const std::string& profile, Compari
   RemovalFigures figures =
       runRemoval(sequence, comparison.frames, map, profile, [&](const io::Scan& scan, const RhMap& now) {
         series.memory.push_back(now.memoryUsage() + now.removalMemoryUsage());
-        if (comparison.cleaned.empty()) addGround(scan, now, comparison.ground);  // one estimate is enough
+        if (!comparison.cleaned.empty()) return;  // the first profile's will do
+        addGround(scan, now, comparison.ground);
+        addHits(scan, now, comparison.hits);
       });
   series.seconds = figures.seconds;
   comparison.series.push_back(std::move(series));

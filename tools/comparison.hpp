@@ -49,6 +49,7 @@ struct Comparison {
   std::optional<MapDifference> difference;  ///< counted where the bytes are not the same
   std::unique_ptr<OcTree> octomap;          ///< OctoMap's map, read from what it writes
   std::vector<CleanedMap> cleaned;
+  KeySet hits;                      ///< cells that any scan has hit, in the ranges of the removal
   KeySet ground;                    ///< cells that the removal took for ground when they were hit
   std::vector<eval::Score> scores;  ///< with labels and a profile: baselines, OctoMap's rows, the profiles
 };

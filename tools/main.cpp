@@ -61,6 +61,7 @@ int run(int argc, char** argv) {
   rhmap::tools::addEvaluate(app);
   rhmap::tools::addSimulate(app);
   rhmap::tools::addRender(app);
+  rhmap::tools::addReport(app);
   try {
     checkVerb(app, argc, argv);
     app.parse(argc, argv);

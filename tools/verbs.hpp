@@ -14,6 +14,7 @@ void addInfo(CLI::App& app);
 void addCompare(CLI::App& app);
 void addConvert(CLI::App& app);
 void addEvaluate(CLI::App& app);
+void addReport(CLI::App& app);
 void addSimulate(CLI::App& app);
 void addRender(CLI::App& app);
 

@@ -22,6 +22,10 @@ void addMissing(CLI::App& app, const char* name, const char* what) {
 
 }  // namespace
 
+void addReport(CLI::App& app) {
+  addMissing(app, "report", "Make a page that shows maps, scores and times (not built)");
+}
+
 void addRender(CLI::App& app) { addMissing(app, "render", "Draw a map or points as a PNG picture (not built)"); }
 
 }  // namespace rhmap::tools
