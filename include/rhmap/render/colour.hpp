@@ -23,7 +23,7 @@ inline constexpr Colour kLost{240, 160, 30};       ///< static, and is gone
 inline constexpr Colour kGround{190, 164, 122};    ///< carries the robot
 inline constexpr Colour kNonGround{74, 124, 176};  ///< stands on the ground
 inline constexpr Colour kFreeSpace{90, 160, 230, 26};
-inline constexpr Colour kTrajectory{220, 60, 130};
+inline constexpr Colour kTrajectory{38, 88, 214};
 
 /// The colour at `t` (0 ... 1, clamped; NaN is 0) of the ramp from blue over green to orange; red is left to kMissed.
 Colour rampColour(double t);
