@@ -8,8 +8,7 @@ root=$(cd -- "$(dirname -- "${BASH_SOURCE[0]}")/.." && pwd)
 cd -- "$root"
 
 tools/install-deps.sh tests
-options=(-DCMAKE_BUILD_TYPE=Release -DRHMAP_BUILD_TOOLS=ON -DRHMAP_BUILD_TESTS=ON -DRHMAP_BUILD_BENCHMARKS=ON
-         -DRHMAP_INSTALL=ON)
+options=(-DCMAKE_BUILD_TYPE=Release -DRHMAP_BUILD_TOOLS=ON -DRHMAP_BUILD_TESTS=ON -DRHMAP_INSTALL=ON)
 if command -v ccache >/dev/null; then
   options+=(-DCMAKE_CXX_COMPILER_LAUNCHER=ccache)
 fi
