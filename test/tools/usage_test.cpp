@@ -14,11 +14,11 @@ struct UsageTest : ProgramTest {
 };
 
 TEST_F(UsageTest, AMissingVerbIsAnsweredWithAllVerbs) {
-  fails("", 2, "a verb is missing; one of: build, clean, info, convert, evaluate, simulate");
+  fails("", 2, "a verb is missing; one of: build, clean, info, convert, evaluate, simulate, render");
 }
 
 TEST_F(UsageTest, AnUnknownVerbIsAnsweredWithAllVerbs) {
-  fails("bild", 2, "bild is not a verb; one of: build, clean, info, convert, evaluate, simulate");
+  fails("bild", 2, "bild is not a verb; one of: build, clean, info, convert, evaluate, simulate, render");
 }
 
 TEST_F(UsageTest, AMissingArgumentIsNamed) {
