@@ -89,10 +89,12 @@ std::string measurementTable(const Comparison& comparison) {
   std::vector<Cells> rows;
   for (std::size_t k = 0; k < comparison.series.size(); ++k) {
     const MapperSeries& series = comparison.series[k];
-    const auto resident = k < comparison.maps.size() ? comparison.maps[k].resident_memory : std::nullopt;
+    std::string resident = "-";
+    if (k < comparison.maps.size() && comparison.maps[k].resident_memory)
+      resident = byteSize(*comparison.maps[k].resident_memory);
     rows.push_back({series.name, milliseconds(median(series.seconds)), milliseconds(mean(series.seconds)),
                     milliseconds(*std::max_element(series.seconds.begin(), series.seconds.end())),
-                    byteSize(series.memory.back()), resident ? byteSize(*resident) : "-"});
+                    byteSize(series.memory.back()), resident});
   }
   return table({"mapper", "median [ms]", "mean [ms]", "most [ms]", "memory, by itself", "resident memory"}, rows,
                [](const Cells& row) { return row[0] != "octomap"; });

@@ -26,13 +26,14 @@ struct HelpTest : ProgramTest {
 
 TEST_F(HelpTest, ListsTheVerbs) {
   const std::string help = runs("--help");
-  for (const std::string verb : {"build", "clean", "compare", "info", "convert", "evaluate", "simulate", "render"})
+  for (const std::string verb :
+       {"build", "clean", "compare", "info", "convert", "evaluate", "simulate", "render", "report"})
     EXPECT_NE(help.find("\n  " + verb + " "), std::string::npos) << help;
 }
 
 TEST_F(HelpTest, EveryExampleRuns) {
   for (const std::string verb :
-       {"", "build ", "clean ", "compare ", "info ", "convert ", "evaluate ", "simulate ", "render "}) {
+       {"", "build ", "clean ", "compare ", "info ", "convert ", "evaluate ", "simulate ", "render ", "report "}) {
     const auto commands = examples(runs(verb + "--help"));
     EXPECT_GE(commands.size(), 2U) << verb;
     for (const std::string& command : commands) runs(command);

@@ -14,11 +14,12 @@ struct UsageTest : ProgramTest {
 };
 
 TEST_F(UsageTest, AMissingVerbIsAnsweredWithAllVerbs) {
-  fails("", 2, "a verb is missing; one of: build, clean, info, compare, convert, evaluate, simulate, render");
+  fails("", 2, "a verb is missing; one of: build, clean, info, compare, convert, evaluate, simulate, render, report");
 }
 
 TEST_F(UsageTest, AnUnknownVerbIsAnsweredWithAllVerbs) {
-  fails("bild", 2, "bild is not a verb; one of: build, clean, info, compare, convert, evaluate, simulate, render");
+  fails("bild", 2,
+        "bild is not a verb; one of: build, clean, info, compare, convert, evaluate, simulate, render, report");
 }
 
 TEST_F(UsageTest, AMissingArgumentIsNamed) {

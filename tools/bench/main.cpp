@@ -6,13 +6,12 @@
 #include <CLI/CLI.hpp>
 #include <cstdio>
 #include <exception>
-#include <fstream>
 #include <nlohmann/json.hpp>
 #include <string>
-#include <string_view>
 #include <vector>
 
 #include "comparison.hpp"
+#include "processor_name.hpp"
 #include "rhmap/core/atomic_file.hpp"
 
 namespace rhmap::bench {
@@ -51,14 +50,6 @@ void print(const MemoryRow& row) {
              static_cast<double>(row.octomap) / static_cast<double>(row.rhmap),
              row.same_answers ? "" : "  THE MAPS DIFFER");
   std::fflush(stdout);
-}
-
-std::string processorName() {
-  std::ifstream info("/proc/cpuinfo");
-  constexpr std::string_view kField = "model name";
-  for (std::string line; std::getline(info, line);)
-    if (line.starts_with(kField)) return line.substr(line.find(':') + 2);
-  return "unknown";
 }
 
 nlohmann::ordered_json toJson(const Row& row) {
