@@ -3,6 +3,7 @@
 
 #include <sstream>
 
+#include "ground_cells.hpp"
 #include "octomap_rows.hpp"
 #include "progress_bar.hpp"
 #include "rhmap/octree/map_file.hpp"

@@ -20,6 +20,17 @@ bool occupiedIn(const AbstractOccupancyOcTree& map, const OcTreeKey& key, unsign
   });
 }
 
+/// Leaves that hold one of the cells in one colour, the others in another.
+ColouredMap colouredByCells(const AbstractOccupancyOcTree& map, const KeySet& cells, const render::LegendEntry& others,
+                            const render::LegendEntry& these, double ceiling) {
+  const auto colour = [&](const auto& leaf) {
+    return holdsOneOf(cells, leaf.getIndexKey(), leaf.getDepth()) ? these.colour : others.colour;
+  };
+  return visitTree(map, [&](const auto& tree) {
+    return ColouredMap{occupiedFaces(tree, colour, ceiling), {others, these}, {}};
+  });
+}
+
 }  // namespace
 
 ColouredMap colouredByHeight(const AbstractOccupancyOcTree& map, double ceiling) {
@@ -43,13 +54,11 @@ std::optional<ColouredMap> colouredByItself(const AbstractOccupancyOcTree& map, 
 }
 
 ColouredMap colouredByResidue(const AbstractOccupancyOcTree& map, const KeySet& moving, double ceiling) {
-  const auto colour = [&](const auto& leaf) {
-    return holdsOneOf(moving, leaf.getIndexKey(), leaf.getDepth()) ? render::kMissed : render::kKept;
-  };
-  return visitTree(map, [&](const auto& tree) {
-    return ColouredMap{
-        occupiedFaces(tree, colour, ceiling), {{render::kKept, "static"}, {render::kMissed, "left of what moved"}}, {}};
-  });
+  return colouredByCells(map, moving, {render::kKept, "static"}, {render::kMissed, "left of what moved"}, ceiling);
+}
+
+ColouredMap colouredByGround(const AbstractOccupancyOcTree& map, const KeySet& ground, double ceiling) {
+  return colouredByCells(map, ground, {render::kNonGround, "not ground"}, {render::kGround, "ground"}, ceiling);
 }
 
 ColouredMap colouredByDifference(const AbstractOccupancyOcTree& before, const AbstractOccupancyOcTree& after,

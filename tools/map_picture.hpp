@@ -30,6 +30,9 @@ std::optional<ColouredMap> colouredByItself(const AbstractOccupancyOcTree& map, 
 /// What is left of what moved in red, the rest grey.
 ColouredMap colouredByResidue(const AbstractOccupancyOcTree& map, const KeySet& moving, double ceiling = kNoCeiling);
 
+/// Cells of the ground, and what stands on it.
+ColouredMap colouredByGround(const AbstractOccupancyOcTree& map, const KeySet& ground, double ceiling = kNoCeiling);
+
 /// The occupied cells of `before` by what became of them in `after`: kept or removed. With `moving` also whether that
 /// was right: moving ones are removed or missed, static ones kept or lost. A leaf of several cells counts as kept, and
 /// as moving, if one of them is. Both maps must have the same resolution; std::invalid_argument otherwise.

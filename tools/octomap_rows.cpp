@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "octomap_rows.hpp"
 
+#include "ground_cells.hpp"
 #include "progress_bar.hpp"
+#include "rhmap/removal/rh_map.hpp"
 
 namespace rhmap::tools {
 
@@ -28,12 +30,6 @@ OctomapBaseline runOctomapBaseline(const io::ScanSequence& sequence, const eval:
     bar.advance();
   }
   return baseline;
-}
-
-void addGround(const io::Scan& scan, const RhMap& map, KeySet& ground) {
-  OcTreeKey key;
-  for (const octomap::point3d& point : scan.points)
-    if (map.coordToKeyChecked(scan.pose.transform(point), key) && map.isGround(key)) ground.insert(key);
 }
 
 std::vector<eval::Estimate> octomapRows(const OcTree& map, const KeySet& ground) {

@@ -9,7 +9,6 @@
 #include "rhmap/eval/labelled_scan.hpp"
 #include "rhmap/io/scan_sequence.hpp"
 #include "rhmap/octree/octree.hpp"
-#include "rhmap/removal/rh_map.hpp"
 
 namespace rhmap::tools {
 
@@ -22,9 +21,6 @@ struct OctomapBaseline {
 /// Runs it over the window of a sequence, with a bar of progress.
 OctomapBaseline runOctomapBaseline(const io::ScanSequence& sequence, const eval::SequenceWindow& window,
                                    double resolution);
-
-/// Adds the cells of a scan that `map` takes for ground now.
-void addGround(const io::Scan& scan, const RhMap& map, KeySet& ground);
 
 /// The rows `octomap` and `octomap, ground kept`: rays that graze the ground erase it, so methods are also compared
 /// with an OctoMap whose ground they cannot touch. Map and ground must live as long as the rows.

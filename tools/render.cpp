@@ -12,6 +12,7 @@
 #include <numbers>
 
 #include "arguments.hpp"
+#include "ground_cells.hpp"
 #include "map_picture.hpp"
 #include "progress_bar.hpp"
 #include "rhmap/io/cloud_reader.hpp"
@@ -27,6 +28,7 @@ struct RenderOptions {
   std::string colour;  ///< empty: the map's own colours if it has any, else height
   std::string after;
   std::string labels;
+  std::string ground;
   std::string path;
   std::string frames;
   std::string view = "isometric";
@@ -114,6 +116,13 @@ KeySet readMovingCells(const RenderOptions& options, double resolution) {
   return movingCells(*sequence, {.first = frames.first, .last = frames.last}, resolution, [&bar] { bar.advance(); });
 }
 
+/// The cells that the scans of a sequence show to be ground.
+KeySet readGround(const RenderOptions& options, double resolution) {
+  requireExists(options.ground);
+  const auto sequence = io::openSequence(options.ground);
+  return groundCells(*sequence, chooseFrames(options.frames, options.ground, sequence->size()), resolution);
+}
+
 ColouredMap coloured(const RenderOptions& options, const AbstractOccupancyOcTree& map) {
   std::optional<KeySet> moving;
   if (!options.labels.empty()) moving = readMovingCells(options, map.getResolution());
@@ -121,6 +130,7 @@ ColouredMap coloured(const RenderOptions& options, const AbstractOccupancyOcTree
     const LoadedMap after = loadMap(options.after);
     return colouredByDifference(map, *after.tree, moving ? &*moving : nullptr, options.ceiling);
   }
+  if (!options.ground.empty()) return colouredByGround(map, readGround(options, map.getResolution()), options.ceiling);
   if (moving) return colouredByResidue(map, *moving, options.ceiling);
   if (options.colour == "occupancy") return colouredByOccupancy(map, options.ceiling);
   if (options.colour != "height")
@@ -191,8 +201,9 @@ void renderInput(const RenderOptions& options) {
   requireExists(options.input);
   const std::string extension = extensionOf(options.input);
   const bool is_cloud = std::find(kClouds.begin(), kClouds.end(), extension) != kClouds.end();
-  if (is_cloud && (!options.after.empty() || !options.labels.empty() || !options.colour.empty() || options.free))
-    throw UsageError("--after, --labels, --colour and --free are for maps; " + options.input + " is a cloud");
+  if (is_cloud && (!options.after.empty() || !options.labels.empty() || !options.ground.empty() ||
+                   !options.colour.empty() || options.free))
+    throw UsageError("--after, --labels, --ground, --colour and --free are for maps; " + options.input + " is a cloud");
 
   Subject subject;
   subject.caption.title = options.title;
@@ -232,6 +243,9 @@ void addRender(CLI::App& app) {
   verb->add_option("--after", options->after, "Show what this cleaned map kept and removed")->type_name("MAP");
   verb->add_option("--labels", options->labels, "Show what is left of what moved, by this sequence's labels")
       ->type_name("SEQUENCE");
+  verb->add_option("--ground", options->ground, "Tell the ground from the rest, by this sequence's scans")
+      ->type_name("SEQUENCE")
+      ->excludes("--labels", "--after");
   verb->add_option("--path", options->path, "Draw the path of this sequence's sensor")->type_name("SEQUENCE");
   addFrames(*verb, options->frames);
   verb->add_option("--ceiling", options->ceiling, "Leave out what is above this height (default: nothing)")

@@ -43,6 +43,17 @@ TEST_F(RenderTest, ShowsWhatIsLeftOfWhatMovedInRed) {
   EXPECT_EQ(redOf("static"), 0);
 }
 
+TEST_F(RenderTest, TellsTheGroundFromWhatStandsOnIt) {
+  runs("simulate street street --beams 32 --frames 3");
+  runs("clean street map.bt --resolution 0.2 --max-range 30");
+  runs("render map.bt ground.png --ground street --size 400x300 --view top --bare");
+  const render::Image image = picture("ground.png");
+  const double brown = share(image, [](const auto& c) { return c.r > c.b + 25; });
+  const double blue = share(image, [](const auto& c) { return c.b > c.r + 25; });
+  EXPECT_GT(brown, 0.02);
+  EXPECT_GT(blue, 0.005);
+}
+
 TEST_F(RenderTest, TurnsAroundAMap) {
   runs("render data/maps/geb079.bt turn.png --turntable 2 --size 160x100");
   EXPECT_TRUE(exists("turn-0000.png"));
