@@ -1,10 +1,12 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: BSD-3-Clause
 # tools/demo.sh: from a fresh checkout to a map and a page that shows it. Installs what is missing, builds the program into
-# build/, unpacks the KITTI clip, and makes of it out/map.bt and out/map.ot, out/clean.bt and out/clean.ply, the map without
-# what moves, out/scores.json, how well that went, and out/report/index.html, with OctoMap on the same scans.
+# build/, unpacks the KITTI clip, and makes of it out/map.bt, out/map.ot and out/summary.json, beside OctoMap on the same
+# scans; out/clean.bt and out/clean.ply, the map without what moves; and out/report/index.html: all of it to look at, with
+# scores before and after and OctoMap on the same scans.
 #
-# The page is at 0.2 m for OctoMap's sake: there it takes about a second a scan, at 0.1 m about four.
+# The first comparison is at 0.2 m for OctoMap's sake: there it takes about a second a scan, at 0.1 m, as in the report,
+# about four.
 set -euo pipefail
 
 root=$(cd -- "$(dirname -- "${BASH_SOURCE[0]}")/.." && pwd)
@@ -16,12 +18,8 @@ cmake --build build --target rhmap_cli
 data/unpack.sh build/data
 
 mkdir -p out
-build/bin/rhmap build build/data/kitti_raw_0005 out/map.bt out/map.ot --resolution 0.2 --min-range 2.7 --max-range 50
-
-# Without what moves: the map, and its scores before (row `no removal`) and after (row `default`).
+build/bin/rhmap build build/data/kitti_raw_0005 out/map.bt out/map.ot \
+  --resolution 0.2 --min-range 2.7 --max-range 50 --compare --json out/summary.json
 build/bin/rhmap clean build/data/kitti_raw_0005 out/clean.bt out/clean.ply --json out/clean.json
-build/bin/rhmap evaluate build/data/kitti_raw_0005 --protocol rhmap --json out/scores.json
-
-# All of it to look at, with OctoMap on the same scans.
-build/bin/rhmap report build/data/kitti_raw_0005 -o out/report --resolution 0.2 --max-range 50
+build/bin/rhmap report build/data/kitti_raw_0005 -o out/report --max-range 50
 echo "open      out/report/index.html"

@@ -60,7 +60,7 @@ std::string planesOf(const std::vector<OcTreeKey>& keys, const std::array<key_ty
 std::string cellsJson(std::span<const NamedMap> maps, const KeySet& moving) {
   std::vector<std::vector<OcTreeKey>> keys;
   std::array<key_type, 3> min{0xffff, 0xffff, 0xffff}, max{0, 0, 0};
-  std::array<std::vector<key_type>, 3> places;  // of the first map's cells, for where to look
+  std::array<std::vector<key_type>, 3> places;  // of all cells, for where to look
   for (const NamedMap& map : maps) {
     keys.push_back(keysOf(map));
     for (const OcTreeKey& key : keys.back())

@@ -76,6 +76,9 @@ std::string viewerScripts(const Comparison& comparison, const ReportMaps& maps) 
   const std::array<NamedMap, 3> named{NamedMap{"without removal", maps.everything}, NamedMap{"OctoMap", maps.octomap},
                                       NamedMap{"rhmap " + comparison.cleaned.front().profile, maps.cleaned}};
   std::string text = "<script type=\"application/json\" id=\"maps\">" + cellsJson(named, maps.moving) + "</script>\n";
+  text.append("<script type=\"text/plain\" id=\"three-licence\">\n")
+      .append(embedded::three_licence())
+      .append("</script>\n");
   for (const std::string_view script : {embedded::three(), embedded::orbit_controls(), embedded::viewer_script()})
     text.append("<script>\n").append(script).append("\n</script>\n");
   return text;
@@ -92,26 +95,29 @@ std::string missingViewer() {
 std::string reportPage(const Comparison& comparison, const ReportMaps& maps, std::span<const ReportPicture> pictures) {
   const std::string missing = missingViewer();
   const std::string red = "Red is what is left of what moved, by the labels of the sequence.";
-  return fillIn(embedded::page(),
-                {{"sequence", escapeHtml(comparison.options.sequence)},
-                 {"first", std::to_string(comparison.frames.first)},
-                 {"last", std::to_string(comparison.frames.last)},
-                 {"points", grouped(comparison.points.inserted)},
-                 {"resolution", fmt::format("{}", comparison.options.mapping.resolution)},
-                 {"style", std::string(embedded::style())},
-                 {"cards", cards(comparison)},
-                 {"pictures_text", maps.has_labels ? red : "The sequence has no labels that say what moved."},
-                 {"pictures", figures(pictures)},
-                 {"viewer", missing.empty() ? std::string(embedded::viewer())
-                                            : "<p class=\"hint\">" + escapeHtml(missing) + "</p>"},
-                 {"scores", scoreTables(comparison)},
-                 {"measurements", measurementTable(comparison)},
-                 {"plots", plots(comparison)},
-                 {"settings", settingsTable(comparison)},
-                 {"commands", escapeHtml(commandsOf(comparison))},
-                 {"version", RHMAP_VERSION},
-                 {"credits", missing.empty() ? "; 3D view by three.js (MIT licence, three.js authors)" : ""},
-                 {"scripts", missing.empty() ? viewerScripts(comparison, maps) : ""}});
+  return fillIn(
+      embedded::page(),
+      {{"sequence", escapeHtml(comparison.options.sequence)},
+       {"first", std::to_string(comparison.frames.first)},
+       {"last", std::to_string(comparison.frames.last)},
+       {"points", grouped(comparison.points.inserted)},
+       {"resolution", fmt::format("{}", comparison.options.mapping.resolution)},
+       {"style", std::string(embedded::style())},
+       {"cards", cards(comparison)},
+       {"pictures_text", maps.has_labels ? red : "The sequence has no labels that say what moved."},
+       {"pictures", figures(pictures)},
+       {"viewer",
+        missing.empty() ? std::string(embedded::viewer()) : "<p class=\"hint\">" + escapeHtml(missing) + "</p>"},
+       {"scores", scoreTables(comparison)},
+       {"measurements", measurementTable(comparison)},
+       {"plots", plots(comparison)},
+       {"settings", settingsTable(comparison)},
+       {"commands", escapeHtml(commandsOf(comparison))},
+       {"version", RHMAP_VERSION},
+       {"credits", missing.empty()
+                       ? "; 3D view by three.js, under the MIT licence, whose text is in the source of this page"
+                       : ""},
+       {"scripts", missing.empty() ? viewerScripts(comparison, maps) : ""}});
 }
 
 }  // namespace rhmap::tools
