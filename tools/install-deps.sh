@@ -6,8 +6,8 @@ set -euo pipefail
 
 main_packages=(g++ cmake ninja-build liboctomap-dev libeigen3-dev libhwy-dev libcli11-dev libfmt-dev nlohmann-json3-dev
   libosmesa6-dev libpng-dev zlib1g-dev libfreetype-dev fonts-dejavu-core libjs-three xz-utils bzip2)
-test_packages=(libgtest-dev libgmock-dev libbenchmark-dev libdynamicedt3d-dev libfcl-dev libompl-dev octomap-tools chromium
-  python3-numpy)
+test_packages=(libgtest-dev libgmock-dev libbenchmark-dev libdynamicedt3d-dev libfcl-dev libompl-dev octomap-tools
+  chromium python3-numpy)
 
 case ${1:-main} in
   main) packages=("${main_packages[@]}") ;;
