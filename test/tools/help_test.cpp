@@ -26,12 +26,12 @@ struct HelpTest : ProgramTest {
 
 TEST_F(HelpTest, ListsTheVerbs) {
   const std::string help = runs("--help");
-  for (const std::string verb : {"build", "clean", "info", "convert", "evaluate", "simulate"})
+  for (const std::string verb : {"build", "clean", "info", "convert", "evaluate", "simulate", "render"})
     EXPECT_NE(help.find("\n  " + verb + " "), std::string::npos) << help;
 }
 
 TEST_F(HelpTest, EveryExampleRuns) {
-  for (const std::string verb : {"", "build ", "clean ", "info ", "convert ", "evaluate ", "simulate "}) {
+  for (const std::string verb : {"", "build ", "clean ", "info ", "convert ", "evaluate ", "simulate ", "render "}) {
     const auto commands = examples(runs(verb + "--help"));
     EXPECT_GE(commands.size(), 2U) << verb;
     for (const std::string& command : commands) runs(command);
