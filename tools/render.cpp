@@ -191,6 +191,8 @@ void checkTogether(const RenderOptions& options) {
   if (options.turntable > 0 && options.drive > 0) throw UsageError("--turntable or --drive, not both");
   if ((options.drive > 0 || options.view == "path") && options.path.empty())
     throw UsageError("--path SEQUENCE is missing; it is what is driven along");
+  if (!options.colour.empty() && !(options.after.empty() && options.labels.empty() && options.ground.empty()))
+    throw UsageError("--colour does not go with --after, --labels and --ground, which have colours of their own");
   if (!options.box.empty() &&
       !(options.box[0] < options.box[3] && options.box[1] < options.box[4] && options.box[2] < options.box[5]))
     throw UsageError("--box: the first corner must be below the second in x, y and z");

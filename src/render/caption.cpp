@@ -122,6 +122,8 @@ void drawAxes(Canvas& canvas, const Layout& layout, const Image& image, const Ca
   const double arm = 2.4 * layout.text;
   const double inset = layout.margin + arm + layout.text;
   const Eigen::Vector2d origin(image.width - inset, image.height - inset);
+  const int side = int(2 * (arm + layout.text));
+  canvas.fill(image.width - layout.margin - side, image.height - layout.margin - side, side, side, kPaper);
   for (const Axis& axis : axes) {
     const Eigen::Vector2d along(axis.seen.x(), -axis.seen.y());
     if (along.norm() < 0.05) continue;  // straight towards the viewer or away

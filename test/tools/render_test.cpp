@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "rhmap/render/image.hpp"
 
+#include <fmt/format.h>
 #include <gmock/gmock.h>
 
 #include <algorithm>
@@ -54,6 +55,50 @@ TEST_F(RenderTest, TellsTheGroundFromWhatStandsOnIt) {
   EXPECT_GT(blue, 0.005);
 }
 
+TEST_F(RenderTest, ShowsWhatACleanedMapKeptAndRemoved) {
+  // Two walls, of which the other map has one.
+  std::string left, right;
+  for (int i = 0; i < 20; ++i) {
+    left += fmt::format("0.05 {:.2f} 0.05\n", 0.1 * i + 0.05);
+    right += fmt::format("2.05 {:.2f} 0.05\n", 0.1 * i + 0.05);
+  }
+  writeFile(folder / "both.xyz", left + right);
+  writeFile(folder / "left.xyz", left);
+  for (const std::string name : {"both", "left"}) runs("build " + name + ".xyz " + name + ".bt --resolution 0.1");
+  runs("render both.bt moved.png --after left.bt --view top --size 210x200 --bare");
+  const render::Image image = picture("moved.png");
+  const double kept = share(image, [](const auto& c) { return c == render::kKept; });
+  EXPECT_GT(kept, 0.02);
+  EXPECT_NEAR(kept, share(image, [](const auto& c) { return c == render::kRemoved; }), 0.2 * kept);
+  const auto columnOf = [&](const render::Colour& colour) {
+    return (std::find(image.pixels.begin(), image.pixels.end(), colour) - image.pixels.begin()) % image.width;
+  };
+  EXPECT_LT(columnOf(render::kKept), 105);
+  EXPECT_GT(columnOf(render::kRemoved), 105);
+}
+
+TEST_F(RenderTest, DrawsACloudByHeight) {
+  std::string points;
+  for (int i = 0; i < 1000; ++i) points += fmt::format("{} {} {}\n", i % 100, i / 100, i % 100 < 50 ? 0 : 3);
+  writeFile(folder / "cloud.xyz", points);
+  runs("render cloud.xyz cloud.png --view top --size 400x60 --bare");
+  const render::Image image = picture("cloud.png");
+  const auto left = [&](const render::Colour& colour) { return (&colour - image.pixels.data()) % image.width < 200; };
+  EXPECT_GT(share(image, [&](const auto& c) { return c == render::rampColour(0) && left(c); }), 0.03);
+  EXPECT_GT(share(image, [&](const auto& c) { return c == render::rampColour(1) && !left(c); }), 0.03);
+  EXPECT_EQ(share(image, [&](const auto& c) { return c == render::rampColour(1) && left(c); }), 0);
+}
+
+TEST_F(RenderTest, DrivesAlongAPath) {
+  runs("simulate street street --beams 16 --frames 4");
+  runs("build street street.bt --resolution 0.4 --max-range 30");
+  runs("render street.bt drive.png --path street --drive 2 --size 160x100 --bare");
+  const auto isPath = [](const render::Colour& c) { return c == render::kTrajectory; };
+  EXPECT_GT(share(picture("drive-0000.png"), isPath), 0.0005);
+  EXPECT_TRUE(exists("drive-0001.png"));
+  EXPECT_FALSE(exists("drive-0002.png"));
+}
+
 TEST_F(RenderTest, TurnsAroundAMap) {
   runs("render data/maps/geb079.bt turn.png --turntable 2 --size 160x100");
   EXPECT_TRUE(exists("turn-0000.png"));
@@ -70,6 +115,10 @@ TEST_F(RenderTest, SaysWhatIsWrong) {
   EXPECT_EQ(outcome.exit_code, 2);
   EXPECT_THAT(outcome.err, testing::HasSubstr(".png"));
   EXPECT_FALSE(exists("map.jpg"));
+  fails("render data/maps/geb079.bt map.png --drive 3", 2, "--path SEQUENCE is missing; it is what is driven along");
+  fails("render data/maps/geb079.bt map.png --eye 1,2,3", 2, "--eye and --target go together");
+  fails("render data/maps/geb079.bt map.png --colour height --after data/maps/geb079.bt", 2,
+        "--colour does not go with --after, --labels and --ground, which have colours of their own");
 }
 
 }  // namespace
