@@ -33,7 +33,7 @@ std::string deflated(const std::string& bytes) {
 }
 
 /// Planes of bytes, which deflate well because neighbours in the tree are near each other: for each axis the low and
-/// the high bytes of the keys' differences, then whether cells moved.
+/// the high bytes of the keys' differences, then bits: 1 for cells that moved, 2 for cells right below another.
 std::string planesOf(const std::vector<OcTreeKey>& keys, const std::array<key_type, 3>& origin, const KeySet& moving) {
   std::string planes;
   planes.reserve(7 * keys.size());
@@ -51,7 +51,12 @@ std::string planesOf(const std::vector<OcTreeKey>& keys, const std::array<key_ty
     }
     planes += low + high;
   }
-  for (const OcTreeKey& key : keys) planes.push_back(moving.contains(key) ? 1 : 0);
+  KeySet all;
+  for (const OcTreeKey& key : keys) all.insert(key);
+  for (const OcTreeKey& key : keys) {
+    const bool covered = all.contains(OcTreeKey(key[0], key[1], static_cast<key_type>(key[2] + 1)));
+    planes.push_back(static_cast<char>((moving.contains(key) ? 1 : 0) | (covered ? 2 : 0)));
+  }
   return planes;
 }
 

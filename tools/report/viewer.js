@@ -2,6 +2,7 @@
 // next, split into planes of bytes, deflated, in base64 (tools/report_cells.cpp).
 (function () {
   'use strict';
+  const kCubePixels = 3.5;  // smaller cells are drawn as dots, which is many times less work
   const start = performance.now();
   const page = JSON.parse(document.getElementById('maps').textContent);
   const element = id => document.getElementById(id);
@@ -12,7 +13,7 @@
     return new Uint8Array(await new Response(stream).arrayBuffer());
   }
 
-  /// Keys of the cells, three a cell, and one byte a cell that is not 0 for what moved.
+  /// Keys of the cells, three a cell, and a byte of bits a cell: 1 for what moved, 2 for what is right below another.
   async function decode(map) {
     const bytes = await inflate(map.cells);
     const n = map.count, cells = new Uint16Array(3 * n);
@@ -24,7 +25,7 @@
         cells[3 * i + axis] = key;
       }
     }
-    return {cells, moved: bytes.slice(6 * n, 7 * n)};
+    return {cells, bits: bytes.slice(6 * n, 7 * n)};
   }
 
   // Of a cube at most three sides face the eye: a corner of three squares is turned towards it, cube by cube.
@@ -44,11 +45,8 @@
     return {corners, sides, index};
   }
 
-  const vertexShader = `
-    attribute float side;
-    attribute vec3 cell;
-    attribute float moved;
-    uniform vec3 eye;
+  const colouring = `
+    attribute float bits;
     uniform vec2 heights;
     uniform float byHeight;
     varying vec3 colour;
@@ -57,31 +55,54 @@
       vec3 middle = mix(low, vec3(.70, .83, .31), clamp(3. * t - 1., 0., 1.));
       return mix(middle, vec3(.96, .62, .24), clamp(3. * t - 2., 0., 1.));
     }
+    vec3 colourAt(float z) {
+      vec3 plain = mix(vec3(.67, .71, .75), ramp(clamp((z - heights.x) / (heights.y - heights.x), 0., 1.)), byHeight);
+      return mix(plain, vec3(.87, .15, .15), mod(bits, 2.));
+    }`;
+  const cubeShader = colouring + `
+    attribute float side;
+    attribute vec3 cell;
+    uniform vec3 eye;
     void main() {
       vec3 centre = cell + .5;
       vec3 towards = sign(eye - centre) + vec3(equal(eye, centre));
       gl_Position = projectionMatrix * modelViewMatrix * vec4(centre + position * towards, 1.);
       float light = side > 1.5 ? (towards.z > 0. ? 1. : .5) : side > .5 ? .7 : .82;
-      vec3 plain = mix(vec3(.67, .71, .75), ramp(clamp((cell.z - heights.x) / (heights.y - heights.x), 0., 1.)), byHeight);
-      colour = light * mix(plain, vec3(.87, .15, .15), moved);
+      colour = light * colourAt(cell.z);
+    }`;
+  // From afar a cell is a dot: bright where its top can be seen, as of cubes.
+  const dotShader = colouring + `
+    uniform float pixels;
+    void main() {
+      gl_Position = projectionMatrix * modelViewMatrix * vec4(position + .5, 1.);
+      gl_PointSize = max(1.5, 1.3 * pixels / gl_Position.w);
+      colour = (bits > 1.5 ? .76 : 1.) * colourAt(position.z);
     }`;
   const fragmentShader = `
     varying vec3 colour;
     void main() { gl_FragColor = vec4(colour, 1.); }`;
 
-  function meshOf(decoded, material) {
+  // As three.js calls it, by its age.
+  const setAttribute = (geometry, name, value) =>
+      (geometry.setAttribute || geometry.addAttribute).call(geometry, name, value);
+
+  function cubesOf(decoded, material) {
     const {corners, sides, index} = halfCube();
     const geometry = new THREE.InstancedBufferGeometry();
     geometry.setIndex(index);
-    const attribute = (name, value) => (geometry.setAttribute || geometry.addAttribute).call(geometry, name, value);
-    attribute('position', new THREE.BufferAttribute(new Float32Array(corners), 3));
-    attribute('side', new THREE.BufferAttribute(new Float32Array(sides), 1));
-    attribute('cell', new THREE.InstancedBufferAttribute(decoded.cells, 3));
-    attribute('moved', new THREE.InstancedBufferAttribute(decoded.moved, 1));
-    geometry.instanceCount = geometry.maxInstancedCount = decoded.moved.length;
-    const mesh = new THREE.Mesh(geometry, material);
-    mesh.frustumCulled = false;
-    return mesh;
+    setAttribute(geometry, 'position', new THREE.BufferAttribute(new Float32Array(corners), 3));
+    setAttribute(geometry, 'side', new THREE.BufferAttribute(new Float32Array(sides), 1));
+    setAttribute(geometry, 'cell', new THREE.InstancedBufferAttribute(decoded.cells, 3));
+    setAttribute(geometry, 'bits', new THREE.InstancedBufferAttribute(decoded.bits, 1));
+    geometry.instanceCount = geometry.maxInstancedCount = decoded.bits.length;
+    return new THREE.Mesh(geometry, material);
+  }
+
+  function dotsOf(decoded, material) {
+    const geometry = new THREE.BufferGeometry();
+    setAttribute(geometry, 'position', new THREE.BufferAttribute(decoded.cells, 3));
+    setAttribute(geometry, 'bits', new THREE.BufferAttribute(decoded.bits, 1));
+    return new THREE.Points(geometry, material);
   }
 
   async function run() {
@@ -95,13 +116,19 @@
     const size = page.size, middle = new THREE.Vector3(...page.centre);
     const camera = new THREE.PerspectiveCamera(45, 1, 1, 20 * Math.max(...size));
     camera.up.set(0, 0, 1);
-    const material = new THREE.ShaderMaterial({vertexShader, fragmentShader, side: THREE.DoubleSide, uniforms: {
-      eye: {value: camera.position}, heights: {value: new THREE.Vector2(...page.heights)}, byHeight: {value: 1}}});
+    const uniforms = {eye: {value: camera.position}, heights: {value: new THREE.Vector2(...page.heights)},
+                      byHeight: {value: 1}, pixels: {value: 1}};
+    const cubes = new THREE.ShaderMaterial({vertexShader: cubeShader, fragmentShader, side: THREE.DoubleSide, uniforms});
+    const dots = new THREE.ShaderMaterial({vertexShader: dotShader, fragmentShader, uniforms});
 
     const scenes = {};
     for (const map of page.maps) {
       scenes[map.name] = new THREE.Scene();
-      scenes[map.name].add(meshOf(await decode(map), material));
+      const decoded = await decode(map);
+      for (const object of [cubesOf(decoded, cubes), dotsOf(decoded, dots)]) {
+        object.frustumCulled = false;
+        scenes[map.name].add(object);
+      }
       for (const side of ['left-map', 'right-map']) element(side).add(new Option(map.name));
     }
     element('left-map').value = page.maps[0].name;
@@ -116,6 +143,11 @@
       camera.aspect = half / height;
       camera.updateProjectionMatrix();
       camera.updateMatrixWorld();
+      // Of a cell at distance 1, and of one where the camera looks.
+      const pixels = height * renderer.getPixelRatio() / (2 * Math.tan(camera.fov * Math.PI / 360));
+      uniforms.pixels.value = pixels;
+      dots.visible = pixels / camera.position.distanceTo(controls.target) < kCubePixels;
+      cubes.visible = !dots.visible;
       ['left', 'right'].forEach((side, i) => {
         const name = element(side + '-map').value;
         element(side + '-name').textContent = name;
@@ -137,7 +169,7 @@
     addEventListener('resize', resize);
     for (const side of ['left-map', 'right-map']) element(side).addEventListener('change', later);
     element('colouring').addEventListener('change', event => {
-      material.uniforms.byHeight.value = event.target.value === 'height' ? 1 : 0;
+      uniforms.byHeight.value = event.target.value === 'height' ? 1 : 0;
       later();
     });
     element('view-top').addEventListener('click', () => look(0, -0.001, 1.2));
