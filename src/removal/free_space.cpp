@@ -18,36 +18,6 @@ std::uint64_t nameOf(int x, int y) {
   return static_cast<std::uint64_t>(static_cast<std::uint32_t>(x)) << 32 | static_cast<std::uint32_t>(y);
 }
 
-std::uint64_t shifted(std::uint64_t word, int by) {
-  return by >= 64 || by <= -64 ? 0 : by >= 0 ? word >> by : word << -by;
-}
-
-using Counters = std::array<std::uint64_t, 3>;
-
-/// The cells that have counted to at least `n`.
-std::uint64_t atLeast(const Counters& planes, unsigned n) {
-  std::uint64_t larger = 0, equal = ~std::uint64_t{0};
-  for (std::size_t i = planes.size(); i-- > 0;) {
-    if (n >> i & 1) {
-      equal &= planes[i];
-    } else {
-      larger |= equal & planes[i];
-      equal &= ~planes[i];
-    }
-  }
-  return larger | equal;
-}
-
-/// Counts one more for these cells, up to 7.
-void count(Counters& planes, std::uint64_t cells) {
-  std::uint64_t carry = cells & ~(planes[0] & planes[1] & planes[2]);
-  for (std::uint64_t& plane : planes) {
-    const std::uint64_t next = plane & carry;
-    plane ^= carry;
-    carry = next;
-  }
-}
-
 }  // namespace
 
 FreeSpace::FreeSpace(const VoidConfig& config, double cube)
@@ -62,19 +32,31 @@ void FreeSpace::Tile::moveTo(int z) {
   if (z == z0) return;
   for (CellColumn& column : columns) {
     column.is_void = shifted(column.is_void, z - z0);
-    for (std::uint64_t& plane : column.crossed) plane = shifted(plane, z - z0);
+    column.crossed.shift(z - z0);
   }
+  for (Counters<8>& counters : hits) counters.shift(z - z0);
   z0 = z;
 }
 
-FreeSpace::Tile& FreeSpace::tileAt(int x, int y) {
-  Tile* tile = tiles_.find(nameOf(x, y));
-  if (tile == nullptr) {
-    tile = new Tile{.x = x, .y = y, .z0 = voids_.z0()};
-    tiles_.insert(nameOf(x, y), tile);
+/// Visits the tiles of the window that hold something, or where the scan has something for them: visit(tile, x, y),
+/// with its first column in the window.
+template <class F>
+void FreeSpace::forEachTile(F&& visit) {
+  for (int ty = 0; ty < voids_.side(); ty += 8) {
+    for (int tx = 0; tx < voids_.side(); tx += 8) {
+      const int x = (voids_.x0() + tx) >> 3, y = (voids_.y0() + ty) >> 3;
+      Tile* tile = tiles_.find(nameOf(x, y));
+      if (tile == nullptr) {
+        std::uint64_t any = 0;
+        for (int i = 0; i < 64; ++i) any |= crossed_.word(tx + i % 8, ty + i / 8) | ends_.word(tx + i % 8, ty + i / 8);
+        if (any == 0) continue;
+        tile = new Tile{.x = x, .y = y, .z0 = voids_.z0()};
+        tiles_.insert(nameOf(x, y), tile);
+      }
+      tile->moveTo(voids_.z0());
+      visit(*tile, tx, ty);
+    }
   }
-  tile->moveTo(voids_.z0());
-  return *tile;
 }
 
 void FreeSpace::observe(const RegionMap& map, const ScanTrace& trace, const std::array<float, 3>& sensor) {
@@ -88,12 +70,11 @@ void FreeSpace::observe(const RegionMap& map, const ScanTrace& trace, const std:
   const int radius = static_cast<int>(std::ceil(config_.max_range / (cube_ * (1 << shift_)))) + 2;
   const int x0 = (cell[0] - radius) & ~7, y0 = (cell[1] - radius) & ~7, z0 = (cell[2] - kBelow) & ~7;
   const int side = (2 * radius + 15) & ~7;
-  for (CellGrid* grid : {&hit_, &crossed_, &voids_}) grid->reset(x0, y0, z0, side);
+  for (CellGrid* grid : {&ends_, &hit_, &crossed_, &voids_}) grid->reset(x0, y0, z0, side);
 
   std::vector<Ray> rays;
   markHits(map, trace, from, rays);
   for (const Ray& ray : rays) follow(from, ray);
-  revert(map, trace);
   update();
 }
 
@@ -103,32 +84,31 @@ void FreeSpace::markHits(const RegionMap& map, const ScanTrace& trace, const std
   const auto cells_per_metre = static_cast<float>(1 / (cube_ * (1 << shift_)));
   const float reach = static_cast<float>(config_.max_range) * cells_per_metre;
   const float surface = static_cast<float>(config_.surface) * cells_per_metre;
-  for (const Region* region : trace.regions) {
-    region->forEachHitOctant([&](std::size_t o, const Octant& octant) {
-      const OcTreeKey corner = map.cornerOf(*region, o);
-      forEachCell(octant.hit, corner, shift_, [&](const OcTreeKey& cell, std::uint64_t hit, std::size_t) {
-        hit_.set(cell[0] >> shift_, cell[1] >> shift_, cell[2] >> shift_);
-        const OcTreeKey cube = cubeOf(corner, std::countr_zero(hit));
-        Ray ray{.to = {}, .share = 1};
-        float squared = 0;
-        for (unsigned i = 0; i < 3; ++i) {
-          ray.to[i] = (static_cast<float>(cube[i]) + 0.5F) / static_cast<float>(1 << shift_);
-          squared += (ray.to[i] - from[i]) * (ray.to[i] - from[i]);
-        }
-        const float length = std::sqrt(squared);
-        if (length > reach || length < 1) return;
-        const float t = 1 - surface / length;  // with noise, the surface may be here
-        hit_.set(static_cast<int>(from[0] + t * (ray.to[0] - from[0])),
-                 static_cast<int>(from[1] + t * (ray.to[1] - from[1])),
-                 static_cast<int>(from[2] + t * (ray.to[2] - from[2])));
-        if ((octant.ground & hit) != 0) {  // the last metres of a grazing ray run inside the ground's own cells
-          const float sine = std::max(std::fabs(ray.to[2] - from[2]) / length, 1e-3F);
-          ray.share = 1 - std::min(kLongestGraze, kGrazing / sine) * cells_per_metre / length;
-        }
-        if (ray.share > 0) rays.push_back(ray);
-      });
+  trace.forEachHitOctant([&](const Region& region, std::size_t o, const Octant& octant) {
+    const OcTreeKey corner = map.cornerOf(region, o);
+    forEachCell(octant.hit, corner, shift_, [&](const OcTreeKey& cell, std::uint64_t hit, std::size_t) {
+      ends_.set(cell[0] >> shift_, cell[1] >> shift_, cell[2] >> shift_);
+      hit_.set(cell[0] >> shift_, cell[1] >> shift_, cell[2] >> shift_);
+      const OcTreeKey cube = cubeOf(corner, std::countr_zero(hit));
+      Ray ray{.to = {}, .share = 1};
+      float squared = 0;
+      for (unsigned i = 0; i < 3; ++i) {
+        ray.to[i] = (static_cast<float>(cube[i]) + 0.5F) / static_cast<float>(1 << shift_);
+        squared += (ray.to[i] - from[i]) * (ray.to[i] - from[i]);
+      }
+      const float length = std::sqrt(squared);
+      if (length > reach || length < 1) return;
+      const float t = 1 - surface / length;  // with noise, the surface may be here
+      hit_.set(static_cast<int>(from[0] + t * (ray.to[0] - from[0])),
+               static_cast<int>(from[1] + t * (ray.to[1] - from[1])),
+               static_cast<int>(from[2] + t * (ray.to[2] - from[2])));
+      if ((octant.ground & hit) != 0) {  // the last metres of a grazing ray run inside the ground's own cells
+        const float sine = std::max(std::fabs(ray.to[2] - from[2]) / length, 1e-3F);
+        ray.share = 1 - std::min(kLongestGraze, kGrazing / sine) * cells_per_metre / length;
+      }
+      if (ray.share > 0) rays.push_back(ray);
     });
-  }
+  });
 }
 
 /// Marks the cells on the way as crossed, up to the first that the scan has hit: Amanatides and Woo.
@@ -161,57 +141,38 @@ void FreeSpace::follow(const std::array<float, 3>& from, const Ray& ray) {
   }
 }
 
-/// What has come to stay: a void cell that is hit again and again, and no ray crosses any more, is void no longer, nor
-/// are those around it.
-void FreeSpace::revert(const RegionMap& map, const ScanTrace& trace) {
-  Tile* last = nullptr;  // cells come in clusters
-  for (Region* region : trace.regions) {
-    region->forEachHitOctant([&](std::size_t o, Octant& octant) {
-      forEachCell(octant.hit, map.cornerOf(*region, o), shift_,
-                  [&](const OcTreeKey& corner, std::uint64_t, std::size_t number) {
-                    const int x = corner[0] >> shift_, y = corner[1] >> shift_, z = (corner[2] >> shift_) - voids_.z0();
-                    const int wx = x - voids_.x0(), wy = y - voids_.y0();
-                    if (wx < 1 || wy < 1 || wx + 1 >= voids_.side() || wy + 1 >= voids_.side() || z < 0 || z >= 64)
-                      return;
-                    if (last == nullptr || last->x != x >> 3 || last->y != y >> 3) last = &tileAt(x >> 3, y >> 3);
-                    const CellColumn& column = last->at(x, y);
-                    std::uint8_t& in_a_row = octant.hits_in_a_row[number];
-                    if (atLeast(column.crossed, 1) >> z & 1) in_a_row = 0;
-                    countUp(in_a_row);
-                    if (in_a_row < config_.tau_r || (column.is_void >> z & 1) == 0) return;
-                    const std::uint64_t around = z > 0 ? std::uint64_t{7} << (z - 1) : std::uint64_t{3};
-                    for (int cy = y - 1; cy <= y + 1; ++cy)
-                      for (int cx = x - 1; cx <= x + 1; ++cx) tileAt(cx >> 3, cy >> 3).at(cx, cy).is_void &= ~around;
-                  });
-    });
-  }
+/// What has come to stay: void cells that are hit again and again, and that no ray crosses any more.
+CellGrid FreeSpace::stayed() {
+  CellGrid stayed(voids_.x0(), voids_.y0(), voids_.z0(), voids_.side());
+  forEachTile([&](Tile& tile, int tx, int ty) {
+    for (int i = 0; i < 64; ++i) {
+      const std::uint64_t ends = ends_.word(tx + i % 8, ty + i / 8);
+      if (ends == 0) continue;
+      const CellColumn& column = tile.columns[static_cast<std::size_t>(i)];
+      Counters<8>& hits = tile.hits[static_cast<std::size_t>(i)];
+      hits.reset(ends & column.crossed.atLeast(1));
+      hits.countUp(ends);
+      stayed.word(tx + i % 8, ty + i / 8) = ends & column.is_void & hits.atLeast(static_cast<unsigned>(config_.tau_r));
+    }
+  });
+  return stayed;
 }
 
 /// Takes the scan's cells into the tiles' counters, and finds the void.
 void FreeSpace::update() {
   const CellGrid clear = crossed_.eroded();
-  for (int ty = 0; ty < voids_.side(); ty += 8) {
-    for (int tx = 0; tx < voids_.side(); tx += 8) {
-      const int x = (voids_.x0() + tx) >> 3, y = (voids_.y0() + ty) >> 3;
-      Tile* tile = tiles_.find(nameOf(x, y));
-      if (tile == nullptr) {
-        std::uint64_t any = 0;
-        for (int i = 0; i < 64; ++i) any |= crossed_.word(tx + i % 8, ty + i / 8);
-        if (any == 0) continue;
-        tile = &tileAt(x, y);
-      }
-      tile->moveTo(voids_.z0());
-      for (int i = 0; i < 64; ++i) {
-        const int cx = tx + i % 8, cy = ty + i / 8;
-        CellColumn& column = tile->columns[static_cast<std::size_t>(i)];
-        const std::uint64_t hit = hit_.word(cx, cy);
-        for (std::uint64_t& plane : column.crossed) plane &= ~hit;
-        count(column.crossed, crossed_.word(cx, cy));
-        column.is_void |= clear.word(cx, cy) & atLeast(column.crossed, static_cast<unsigned>(config_.tau_f));
-        voids_.word(cx, cy) = column.is_void;
-      }
+  const CellGrid filled = stayed().dilated();  // nor are those around it void any longer
+  forEachTile([&](Tile& tile, int tx, int ty) {
+    for (int i = 0; i < 64; ++i) {
+      const int cx = tx + i % 8, cy = ty + i / 8;
+      CellColumn& column = tile.columns[static_cast<std::size_t>(i)];
+      column.is_void &= ~filled.word(cx, cy);
+      column.crossed.reset(hit_.word(cx, cy));
+      column.crossed.countUp(crossed_.word(cx, cy));
+      column.is_void |= clear.word(cx, cy) & column.crossed.atLeast(static_cast<unsigned>(config_.tau_f));
+      voids_.word(cx, cy) = column.is_void;
     }
-  }
+  });
 }
 
 void FreeSpace::forgetBeyond(const OcTreeKey& centre, int distance) {

@@ -6,6 +6,7 @@
 #include <cstdint>
 #include <vector>
 
+#include "cell_counters.hpp"
 #include "cell_grid.hpp"
 #include "region_map.hpp"
 #include "rhmap/core/block_index.hpp"
@@ -44,6 +45,8 @@ class FreeSpace {
 
   /// The void around the sensor, as of the last scan.
   const CellGrid& voids() const { return voids_; }
+  /// The cells that the last scan has hit.
+  const CellGrid& ends() const { return ends_; }
   /// A cell is 2^shift cubes wide.
   int shift() const { return shift_; }
 
@@ -56,15 +59,15 @@ class FreeSpace {
   /// 64 cells above each other.
   struct CellColumn {
     std::uint64_t is_void = 0;
-    std::array<std::uint64_t, 3> crossed{};  // scans since the last hit: bit-sliced counters up to 7
+    Counters<3> crossed;  // scans since the last hit
   };
   /// 8 x 8 columns of cells; what is kept from scan to scan.
   struct Tile {
     int x, y;  // of the first cell, / 8
     int z0;    // of the lowest cell
     std::array<CellColumn, 64> columns{};
+    std::array<Counters<8>, 64> hits{};  // scans that have hit the cell since a ray crossed it
 
-    CellColumn& at(int cx, int cy) { return columns[static_cast<std::size_t>((cy & 7) * 8 + (cx & 7))]; }
     void moveTo(int z);
   };
   /// A ray to be followed, in cells.
@@ -73,16 +76,19 @@ class FreeSpace {
     float share;  // of it that is followed
   };
 
-  Tile& tileAt(int x, int y);
+  template <class F>
+  void forEachTile(F&& visit);
   void markHits(const RegionMap& map, const ScanTrace& trace, const std::array<float, 3>& from, std::vector<Ray>& rays);
   void follow(const std::array<float, 3>& from, const Ray& ray);
-  void revert(const RegionMap& map, const ScanTrace& trace);
+  CellGrid stayed();
   void update();
 
   VoidConfig config_;
   double cube_;
   int shift_;
-  CellGrid hit_, crossed_;  // of the scan
+  CellGrid ends_;     // of the scan: where its points are
+  CellGrid hit_;      // and where with noise the surface may be
+  CellGrid crossed_;  // by its rays
   CellGrid voids_;
   BlockIndex<Tile> tiles_;
 };

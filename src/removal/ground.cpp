@@ -83,7 +83,7 @@ void GroundEstimation::update(const RegionMap& map, const ScanTrace& trace) cons
       fit(map, *lowest);
       anew = true;
     }
-    for (const auto& region : column.regions) {
+    for (Region* region : column.regions) {
       if (region->z > lowest->z + 1) break;
       if (anew || region->scan == trace.scan) mark(map, column, *region, !anew);
     }
@@ -92,7 +92,7 @@ void GroundEstimation::update(const RegionMap& map, const ScanTrace& trace) cons
 
 /// What was taken for ground before, while the ground was out of sight, was the top of something.
 void GroundEstimation::setBase(Column& column, Region* lowest) const {
-  for (const auto& region : column.regions) {
+  for (Region* region : column.regions) {
     region->fitted = false;
     region->at_fit = 0;
     region->loose = true;
@@ -104,14 +104,14 @@ void GroundEstimation::setBase(Column& column, Region* lowest) const {
 /// Eq. (4): the lowest region of its column; with cubes that no fit has seen yet, so that each region is fitted a few
 /// times only; and with occupied neighbours, as noise has none.
 bool GroundEstimation::isCandidate(const RegionMap& map, const Region& region) const {
-  const int cubes = region.countCubes();
+  const int cubes = region.cubes;
   if (cubes < config_.min_cubes || cubes < region.at_fit * (1 + config_.min_growth)) return false;
   for (int dx = -1; dx <= 1; ++dx) {
     for (int dy = -1; dy <= 1; ++dy) {
       const Column* beside = dx == 0 && dy == 0 ? nullptr : map.find(region.x + dx, region.y + dy);
       if (beside == nullptr) continue;
-      for (const auto& other : beside->regions)
-        if (std::abs(int{other->z} - int{region.z}) <= 1 && other->isOccupied()) return true;
+      for (const Region* other : beside->regions)
+        if (std::abs(int{other->z} - int{region.z}) <= 1 && other->cubes > 0) return true;
     }
   }
   return false;

@@ -12,69 +12,61 @@ std::size_t MovingHits::reject(const RegionMap& map, const ScanTrace& trace, con
   // Seeds: cells with hits in the void, or with cubes that have come.
   const CellGrid& voids = free_space.voids();
   const int shift = free_space.shift();
-  CellGrid solid(voids.x0(), voids.y0(), voids.z0(), voids.side());
-  CellGrid moving = solid;
+  CellGrid moving(voids.x0(), voids.y0(), voids.z0(), voids.side());
   bool any = false;
-  for (const Region* region : trace.regions) {
-    region->forEachHitOctant([&](std::size_t o, const Octant& octant) {
-      std::uint64_t come = octant.appeared;
-      if (come != 0) {
-        const Neighbourhood around = lookAround(
-            map, map.cornerOf(*region, o),
-            [&](const Region& r, const Octant& beside) { return r.scan == trace.scan ? beside.appeared : 0; });
-        if (!around.isMoving(config_.look_back.share)) come = 0;
-      }
-      forEachCell(octant.hit, map.cornerOf(*region, o), shift,
-                  [&](const OcTreeKey& corner, std::uint64_t hit, std::size_t) {
-                    const int x = corner[0] >> shift, y = corner[1] >> shift, z = corner[2] >> shift;
-                    solid.set(x, y, z);
-                    if ((come & hit) == 0 && ((hit & ~octant.ground) == 0 || !voids.at(x, y, z))) return;
-                    moving.set(x, y, z);
-                    any = true;
-                  });
-    });
-  }
+  trace.forEachHitOctant([&](const Region& region, std::size_t o, const Octant& octant) {
+    std::uint64_t come = octant.appeared;
+    if (come != 0) {
+      const Neighbourhood around = lookAround(map, map.cornerOf(region, o), [&](const Region& r, const Octant& beside) {
+        return r.scan == trace.scan ? beside.appeared : 0;
+      });
+      if (!around.isMoving(config_.look_back.share)) come = 0;
+    }
+    forEachCell(octant.hit, map.cornerOf(region, o), shift,
+                [&](const OcTreeKey& corner, std::uint64_t hit, std::size_t) {
+                  const int x = corner[0] >> shift, y = corner[1] >> shift, z = corner[2] >> shift;
+                  if ((come & hit) == 0 && ((hit & ~octant.ground) == 0 || !voids.at(x, y, z))) return;
+                  moving.set(x, y, z);
+                  any = true;
+                });
+  });
   if (!any) return 0;
 
   // Growth within the scan.
   for (int step = 0; step < config_.free_space.growth; ++step) {
     moving = moving.dilated();
-    moving.intersect(solid);
+    moving.intersect(free_space.ends());
   }
   std::size_t rejected = 0;
-  for (Region* region : trace.regions) {
-    region->forEachHitOctant([&](std::size_t o, Octant& octant) {
-      const OcTreeKey corner = map.cornerOf(*region, o);
-      std::uint64_t out = 0;
-      forEachCell(octant.hit & octant.occupied & ~octant.safe, corner, shift,
-                  [&](const OcTreeKey& cell, std::uint64_t hit, std::size_t) {
-                    if (moving.at(cell[0] >> shift, cell[1] >> shift, cell[2] >> shift)) out |= hit;
-                  });
-      if (out == 0) return;
-      forEachBit(out, [&](int bit) {
-        if (octant.hits[static_cast<std::size_t>(bit)] > config_.free_space.known) out &= ~maskOf(bit);
-      });
-      if (out == 0) return;
-      rejected += static_cast<std::size_t>(std::popcount(out));
-      if (const std::uint64_t known = out & ~octant.fresh; known != 0) removed.push_back({corner, known, false});
-      octant.remove(out);
-      map.find(region->x, region->y)->stale = true;
+  trace.forEachHitOctant([&](Region& region, std::size_t o, Octant& octant) {
+    const OcTreeKey corner = map.cornerOf(region, o);
+    std::uint64_t out = 0;
+    forEachCell(octant.hit & octant.occupied & ~octant.safe, corner, shift,
+                [&](const OcTreeKey& cell, std::uint64_t hit, std::size_t) {
+                  if (moving.at(cell[0] >> shift, cell[1] >> shift, cell[2] >> shift)) out |= hit;
+                });
+    if (out == 0) return;
+    forEachBit(out, [&](int bit) {
+      if (region.counts[o][static_cast<std::size_t>(bit)].hits > config_.free_space.known) out &= ~maskOf(bit);
     });
-  }
+    if (out == 0) return;
+    rejected += static_cast<std::size_t>(std::popcount(out));
+    if (const std::uint64_t known = out & ~octant.fresh; known != 0) removed.push_back({corner, known, false});
+    region.remove(o, out);
+    region.column->stale = true;
+  });
   return rejected;
 }
 
 void MovingHits::lookBack(const RegionMap& map, const ScanTrace& trace) const {
-  for (Region* region : trace.regions) {
-    region->forEachHitOctant([&](std::size_t o, Octant& octant) {
-      const std::uint64_t fresh = octant.fresh & ~octant.ground;
-      if (fresh == 0) return;
-      const OcTreeKey corner = map.cornerOf(*region, o);
-      forEachBit(fresh, [&](int bit) {
-        if (hasCome(cubeOf(corner, bit))) octant.appeared |= maskOf(bit);
-      });
+  trace.forEachHitOctant([&](Region& region, std::size_t o, Octant& octant) {
+    const std::uint64_t fresh = octant.fresh & ~octant.ground;
+    if (fresh == 0) return;
+    const OcTreeKey corner = map.cornerOf(region, o);
+    forEachBit(fresh, [&](int bit) {
+      if (hasCome(cubeOf(corner, bit))) octant.appeared |= maskOf(bit);
     });
-  }
+  });
 }
 
 bool MovingHits::hasCome(const OcTreeKey& cube) const {

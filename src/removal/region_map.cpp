@@ -3,24 +3,54 @@
 
 #include <algorithm>
 #include <cstdlib>
+#include <memory>
+#include <new>
+#include <type_traits>
 
 namespace rhmap {
+namespace {
 
-void Octant::remove(std::uint64_t cubes) {
-  occupied &= ~cubes;
-  ground &= ~cubes;
-  safe &= ~cubes;
-  doubted &= ~cubes;
-  firm &= ~cubes;
-  forEachBit(cubes, [this](int bit) {
-    const auto i = static_cast<std::size_t>(bit);
-    hits[i] = 0;
-    misses[i] = 0;
-  });
+static_assert(std::is_trivially_destructible_v<Region> && std::is_trivially_destructible_v<Octant>);
+
+/// A region, up to where octants are aligned.
+constexpr std::size_t kRegionBytes = (sizeof(Region) + alignof(Octant) - 1) / alignof(Octant) * alignof(Octant);
+
+}  // namespace
+
+void Region::remove(std::size_t octant, std::uint64_t old_cubes) {
+  Octant& from = octants[octant];
+  from.occupied &= ~old_cubes;
+  from.ground &= ~old_cubes;
+  from.safe &= ~old_cubes;
+  from.doubted &= ~old_cubes;
+  from.firm &= ~old_cubes;
+  cubes = static_cast<std::uint16_t>(cubes - std::popcount(old_cubes));
+  forEachBit(old_cubes, [&](int bit) { counts[octant][static_cast<std::size_t>(bit)] = {}; });
 }
+
+RegionMap::RegionMap(int size, Reader read)
+    : bits_(std::countr_zero(static_cast<unsigned>(size))),
+      read_(std::move(read)),
+      pool_(kRegionBytes + octants() * (sizeof(Octant) + sizeof(OctantCounts))) {}
 
 RegionMap::~RegionMap() {
   for (Column* column : in_order_) delete column;
+}
+
+/// One piece of memory: the region, its octants, their counts.
+Region* RegionMap::makeRegion(Column& column, key_type z) {
+  auto* memory = static_cast<std::byte*>(pool_.allocate());
+  auto* first_octant = reinterpret_cast<Octant*>(memory + kRegionBytes);
+  std::uninitialized_value_construct_n(first_octant, octants());
+  auto* first_counts = reinterpret_cast<OctantCounts*>(first_octant + octants());
+  std::uninitialized_value_construct_n(first_counts, octants());
+  return new (memory) Region{.x = column.x,
+                             .y = column.y,
+                             .z = z,
+                             .plane = {},
+                             .column = &column,
+                             .octants = {first_octant, octants()},
+                             .counts = {first_counts, octants()}};
 }
 
 Column& RegionMap::getOrCreate(key_type x, key_type y) {
@@ -30,21 +60,21 @@ Column& RegionMap::getOrCreate(key_type x, key_type y) {
   in_order_.push_back(column);
   for (const Cubes& cubes : read_(static_cast<key_type>(x << bits_), static_cast<key_type>(y << bits_), size())) {
     Region& region = getOrCreate(*column, static_cast<key_type>(cubes.corner[2] >> bits_));
-    region.octants[octantOf(cubes.corner)].occupied |= cubes.occupied;
+    region.add(octantOf(cubes.corner), cubes.occupied);
     column->stale = true;
   }
   refreshHeights(*column);
   return *column;
 }
 
-Region& RegionMap::getOrCreate(Column& column, key_type z, std::size_t octants) {
+Region& RegionMap::getOrCreate(Column& column, key_type z) {
   auto& regions = column.regions;
   const auto at = std::lower_bound(regions.begin(), regions.end(), z,
-                                   [](const auto& region, key_type value) { return region->z < value; });
+                                   [](const Region* region, key_type value) { return region->z < value; });
   if (at != regions.end() && (*at)->z == z) return **at;
-  auto region = std::make_unique<Region>(Region{.x = column.x, .y = column.y, .z = z, .plane = {}, .octants = {}});
-  region->octants.resize(octants);
-  return **regions.insert(at, std::move(region));
+  Region* region = *regions.insert(at, makeRegion(column, z));
+  regions_.insert(nameOf(column.x, column.y, z), region);
+  return *region;
 }
 
 std::pair<int, int> RegionMap::heights(const Region& region) const {
@@ -80,17 +110,19 @@ void RegionMap::forgetBeyond(const OcTreeKey& centre, int distance) {
     const int dx = (column->x << bits_) + half - centre[0], dy = (column->y << bits_) + half - centre[1];
     if (std::max(std::abs(dx), std::abs(dy)) <= distance) return false;
     columns_.erase(nameOf(column->x, column->y));
+    for (Region* region : column->regions) {
+      regions_.erase(nameOf(region->x, region->y, region->z));
+      pool_.release(region);
+    }
     delete column;
     return true;
   });
 }
 
 std::size_t RegionMap::memoryUsage() const {
-  std::size_t bytes = columns_.memoryUsage();
-  columns_.forEach([&](const Column& column) {
-    bytes += sizeof(Column) + column.regions.capacity() * sizeof(column.regions[0]) +
-             column.regions.size() * (sizeof(Region) + octants() * sizeof(Octant));
-  });
+  std::size_t bytes = columns_.memoryUsage() + regions_.memoryUsage() + pool_.memoryUsage();
+  columns_.forEach(
+      [&](const Column& column) { bytes += sizeof(Column) + column.regions.capacity() * sizeof(column.regions[0]); });
   return bytes;
 }
 

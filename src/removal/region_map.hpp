@@ -6,17 +6,18 @@
 #include <cstddef>
 #include <cstdint>
 #include <functional>
-#include <memory>
+#include <span>
 #include <utility>
 #include <vector>
 
 #include "rhmap/core/block_index.hpp"
 #include "rhmap/core/key.hpp"
+#include "rhmap/core/record_pool.hpp"
 
 namespace rhmap {
 
-/// 4 x 4 x 4 cubes, bits in Morton order: what lies under one depth-14 node of the tree.
-struct Octant {
+/// 4 x 4 x 4 cubes, bits in Morton order: what lies under one depth-14 node of the tree. One line of the cache.
+struct alignas(64) Octant {
   std::uint64_t occupied = 0;  ///< cubes that are in the map
   std::uint64_t ground = 0;    ///< of these, cubes of the ground
   std::uint64_t safe = 0;      ///< of these, cubes so near to its plane that they stay whatever happens
@@ -26,14 +27,14 @@ struct Octant {
   std::uint64_t hit = 0;       ///< cubes that it has hit
   std::uint64_t fresh = 0;     ///< of these, cubes that were not in the map before
   std::uint64_t appeared = 0;  ///< of these, cubes that past scans have seen through
-  // Counters up to 255:
-  std::array<std::uint8_t, 64> hits{};          ///< scans that have hit the cube
-  std::array<std::uint8_t, 64> misses{};        ///< scans that have seen through the cube since its last hit
-  std::array<std::uint8_t, 8> hits_in_a_row{};  ///< scans that have hit a cell of free space since a ray crossed it
-
-  /// Takes cubes out of the map.
-  void remove(std::uint64_t cubes);
 };
+
+/// What is counted of a cube, up to 255. Apart from the masks, which are read far more often.
+struct CubeCounts {
+  std::uint8_t hits = 0;    ///< scans that have hit it
+  std::uint8_t misses = 0;  ///< scans that have seen through it since its last hit
+};
+using OctantCounts = std::array<CubeCounts, 64>;
 
 /// One more, up to 255.
 inline void countUp(std::uint8_t& counter) { counter = static_cast<std::uint8_t>(counter + (counter < 255)); }
@@ -46,64 +47,59 @@ struct Plane {
   float above(float x, float y, float z) const { return n[0] * x + n[1] * y + n[2] * z - d; }
 };
 
+struct Column;
+
 /// M_{I_r}: a region, a cube of 4, 8 or 16 cubes an axis.
 struct Region {
   key_type x = 0, y = 0, z = 0;  ///< I_r >> bits
   std::uint32_t scan = 0;        ///< the last scan that hit it
+  std::uint16_t cubes = 0;       ///< in the map
   std::uint16_t at_fit = 0;      ///< cubes at the last try to fit a plane
   bool fitted = false;           ///< `plane` is the ground's
   bool loose = true;             ///< there may be cubes that are not safe
   bool doubtful = false;         ///< there may be cubes that are doubted
   Plane plane;
-  std::vector<Octant> octants;    ///< in Morton order
   std::uint64_t hit_octants = 0;  ///< those that the scan has hit
+  Column* column = nullptr;       ///< the one that it stands in
+  std::span<Octant> octants;      ///< in Morton order
+  std::span<OctantCounts> counts;
 
-  /// Visits the octants that its last scan has hit: visit(number, octant).
-  template <class F>
-  void forEachHitOctant(F&& visit) const {
-    for (std::uint64_t rest = hit_octants; rest != 0; rest &= rest - 1) {
-      const auto o = static_cast<std::size_t>(std::countr_zero(rest));
-      visit(o, octants[o]);
-    }
+  /// Puts cubes of an octant that are not there yet into the map.
+  void add(std::size_t octant, std::uint64_t new_cubes) {
+    octants[octant].occupied |= new_cubes;
+    cubes = static_cast<std::uint16_t>(cubes + std::popcount(new_cubes));
   }
-  template <class F>
-  void forEachHitOctant(F&& visit) {
-    std::as_const(*this).forEachHitOctant(
-        [&](std::size_t o, const Octant& octant) { visit(o, const_cast<Octant&>(octant)); });
-  }
-
-  bool isOccupied() const {
-    for (const Octant& octant : octants)
-      if (octant.occupied != 0) return true;
-    return false;
-  }
-  int countCubes() const {
-    int count = 0;
-    for (const Octant& octant : octants) count += std::popcount(octant.occupied);
-    return count;
-  }
+  /// Takes cubes of an octant that are there out of the map.
+  void remove(std::size_t octant, std::uint64_t old_cubes);
 };
 
 /// The regions above each other at one O_r, and H{max,min}(O_r).
 struct Column {
-  key_type x = 0, y = 0;                         ///< O_r >> bits
-  int h_min = 0, h_max = -1;                     ///< keys of the lowest and the highest cube; none: max < min
-  bool stale = false;                            ///< cubes were removed since h_min and h_max were computed
-  Region* base = nullptr;                        ///< where R-GPE looks for ground: the lowest region with a cube
-  std::vector<std::unique_ptr<Region>> regions;  ///< by z, ascending
+  key_type x = 0, y = 0;         ///< O_r >> bits
+  int h_min = 0, h_max = -1;     ///< keys of the lowest and the highest cube; none: max < min
+  bool stale = false;            ///< cubes were removed since h_min and h_max were computed
+  Region* base = nullptr;        ///< where R-GPE looks for ground: the lowest region with a cube
+  std::vector<Region*> regions;  ///< by z, ascending
 
-  Region* find(int z) const {
-    for (const auto& region : regions)
-      if (region->z == z) return region.get();
-    return nullptr;
-  }
   /// The lowest region that holds a cube; null if none does.
   Region* lowest() const {
-    for (const auto& region : regions)
-      if (region->isOccupied()) return region.get();
+    for (Region* region : regions)
+      if (region->cubes > 0) return region;
     return nullptr;
   }
 };
+
+/// Bits 0 to 3 of a key, three places apart.
+inline constexpr std::array<std::uint16_t, 16> kSpread = [] {
+  std::array<std::uint16_t, 16> spread{};
+  for (unsigned i = 0; i < 16; ++i) spread[i] = static_cast<std::uint16_t>(spread3(i) | (i & 8) << 6);
+  return spread;
+}();
+
+/// Morton index of a cube among 16 x 16 x 16.
+inline std::size_t mortonOf(const OcTreeKey& cube) {
+  return static_cast<std::size_t>(kSpread[cube[0] & 15] | kSpread[cube[1] & 15] << 1 | kSpread[cube[2] & 15] << 2);
+}
 
 /// What the removal knows of the map around the sensor: RH-Map's attributes of regions and cubes (Sec. III-B), in a
 /// hash map of columns. A cache: what is forgotten is read again from the tree when a scan comes by.
@@ -118,7 +114,7 @@ class RegionMap {
   using Reader = std::function<std::vector<Cubes>(key_type x, key_type y, int size)>;
 
   /// Regions of `size` cubes: 4, 8 or 16.
-  RegionMap(int size, Reader read) : bits_(std::countr_zero(static_cast<unsigned>(size))), read_(std::move(read)) {}
+  RegionMap(int size, Reader read);
   RegionMap(const RegionMap&) = delete;
   RegionMap& operator=(const RegionMap&) = delete;
   ~RegionMap();
@@ -129,21 +125,16 @@ class RegionMap {
   std::size_t octants() const { return std::size_t{1} << 3 * (bits_ - 2); }
 
   Column* find(int x, int y) const { return columns_.find(nameOf(x, y)); }
-  Region* find(int x, int y, int z) const {
-    const Column* column = find(x, y);
-    return column == nullptr ? nullptr : column->find(z);
-  }
+  Region* find(int x, int y, int z) const { return regions_.find(nameOf(x, y, z)); }
   Column& getOrCreate(key_type x, key_type y);
-  static Region& getOrCreate(Column& column, key_type z, std::size_t octants);
-  Region& getOrCreate(Column& column, key_type z) const { return getOrCreate(column, z, octants()); }
+  Region& getOrCreate(Column& column, key_type z);
+  /// Asks for what `find` will read.
+  void prefetch(int x, int y, int z) const { regions_.prefetch(nameOf(x, y, z)); }
 
   /// The region that holds a cube, if it is known.
   Region* regionOf(const OcTreeKey& cube) const { return find(cube[0] >> bits_, cube[1] >> bits_, cube[2] >> bits_); }
   /// Number of the octant of a cube in its region.
-  std::size_t octantOf(const OcTreeKey& cube) const {
-    const unsigned m = static_cast<unsigned>(size()) - 1;
-    return spread3((cube[0] & m) >> 2) | spread3((cube[1] & m) >> 2) << 1 | spread3((cube[2] & m) >> 2) << 2;
-  }
+  std::size_t octantOf(const OcTreeKey& cube) const { return mortonOf(cube) >> 6 & (octants() - 1); }
   /// Lowest cube of octant `o` of a region.
   OcTreeKey cornerOf(const Region& region, std::size_t o) const {
     const auto u = static_cast<unsigned>(o);
@@ -167,12 +158,12 @@ class RegionMap {
   template <class F>
   void forEachColumn(F&& visit) const {
     for (std::size_t i = 0; i < in_order_.size(); ++i) {
-      // Columns and regions lie all over the memory: ask for them some time before they are needed.
-      if (i + 8 < in_order_.size()) __builtin_prefetch(in_order_[i + 8]);
-      if (i + 4 < in_order_.size() && !in_order_[i + 4]->regions.empty())
-        __builtin_prefetch(in_order_[i + 4]->regions.data());
-      if (i + 2 < in_order_.size())
-        for (const auto& region : in_order_[i + 2]->regions) __builtin_prefetch(region.get());
+      // Columns lie all over the memory: ask for them some time before they are needed.
+      if (i + 12 < in_order_.size()) __builtin_prefetch(in_order_[i + 12]);
+      if (i + 8 < in_order_.size() && !in_order_[i + 8]->regions.empty())
+        __builtin_prefetch(in_order_[i + 8]->regions.data());
+      if (i + 4 < in_order_.size())
+        for (const Region* region : in_order_[i + 4]->regions) __builtin_prefetch(region);
       visit(*in_order_[i]);
     }
   }
@@ -182,15 +173,23 @@ class RegionMap {
     return static_cast<std::uint64_t>(static_cast<std::uint32_t>(x)) |
            static_cast<std::uint64_t>(static_cast<std::uint32_t>(y)) << 32;
   }
+  static std::uint64_t nameOf(int x, int y, int z) {
+    const auto part = [](int v) { return static_cast<std::uint64_t>(static_cast<std::uint32_t>(v) & 0x1fffff); };
+    return part(x) | part(y) << 21 | part(z) << 42;
+  }
+
+  Region* makeRegion(Column& column, key_type z);
 
   int bits_;
   Reader read_;
+  RecordPool pool_;  // regions, each with its octants and their counts
   BlockIndex<Column> columns_;
+  BlockIndex<Region> regions_;
   std::vector<Column*> in_order_;  // the same
 };
 
 /// Bit of a cube in its octant.
-inline int bitOf(const OcTreeKey& cube) { return cellIndex(cube, kRegionLevel) & 63; }
+inline int bitOf(const OcTreeKey& cube) { return static_cast<int>(mortonOf(cube) & 63); }
 inline constexpr std::uint64_t maskOf(int bit) { return std::uint64_t{1} << bit; }
 /// The cube of a bit, from the octant's lowest cube.
 inline OcTreeKey cubeOf(const OcTreeKey& corner, int bit) {

@@ -153,24 +153,24 @@ std::size_t RhMap::Removal::write(const ScanTrace& trace, const octomap::Pointcl
   if (config_.carve) markFree(points, pose, cells);
   std::size_t inserted = 0;
   const std::size_t octants = std::min<std::size_t>(8, regions_.octants());
-  for (const Region* region : trace.regions) {
-    for (std::size_t first = 0; first < region->octants.size(); first += octants) {
-      if ((region->hit_octants >> first & 0xff) == 0) continue;
-      const std::uint64_t word = cell_word::fromKey(regions_.cornerOf(*region, first));
+  trace.forEachRegion([&](const Region& region) {
+    for (std::size_t first = 0; first < region.octants.size(); first += octants) {
+      const std::uint64_t word = cell_word::fromKey(regions_.cornerOf(region, first));
       RegionMasks hits{};
       hits.region = word >> 9;
       std::size_t cubes = 0;
-      for (std::size_t o = 0; o < octants; ++o) {
-        const Octant& octant = region->octants[first + o];
+      forEachBit(region.hit_octants >> first & 0xff, [&](int o) {
+        const std::size_t number = first + static_cast<std::size_t>(o);
+        const Octant& octant = region.octants[number];
         const std::uint64_t hit = octant.hit & octant.occupied;
-        hits.hit[(word >> 6 & 7) + o] = hit;
+        hits.hit[(word >> 6 & 7) + static_cast<std::size_t>(o)] = hit;
         cubes += static_cast<std::size_t>(std::popcount(hit));
-        if (has_free) forgetFree(regions_.cornerOf(*region, first + o), hit & octant.fresh);
-      }
+        if (has_free) forgetFree(regions_.cornerOf(region, number), hit & octant.fresh);
+      });
       if (cubes > 0) cells.mark(hits);
       inserted += cubes;
     }
-  }
+  });
   if (tree_.use_change_detection) {
     cells.forEachCell([this](const OcTreeKey& cell, bool occupied) { tree_.updateNode(cell, occupied); });
   } else {

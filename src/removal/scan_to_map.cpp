@@ -11,7 +11,6 @@ namespace {
 
 /// The cubes of an octant that the scan sees through, waiting for judgement.
 struct Doubt {
-  Column* column;
   Region* region;
   std::size_t octant;
   std::uint64_t cubes;
@@ -32,8 +31,8 @@ class ScanToMapRemoval {
       if (column == nullptr || !isCandidate(context, *column)) continue;
       candidates.push_back(column);
       // What is lower than all that the scan sees here it does not see.
-      for (const auto& region : column->regions)
-        if ((region->z + 1) << map_.bits() >= context.z_min) lookAt(*column, *region, 1);
+      for (Region* region : column->regions)
+        if ((region->z + 1) << map_.bits() >= context.z_min) lookAt(*region, 1);
     }
     for (const Context3d& context : scan_.regions) lookBetweenBounds(context);
     if (look_.everywhere) lookEverywhere(candidates);
@@ -57,13 +56,13 @@ class ScanToMapRemoval {
   void lookBetweenBounds(const Context3d& context) {
     Column* column = map_.find(context.x, context.y);
     if (column == nullptr) return;
-    for (const auto& region : column->regions) {
+    for (Region* region : column->regions) {
       const int bottom = region->z << map_.bits(), top = bottom + map_.size() - 1;
       if (region->z == context.z) {
         const auto [low, high] = map_.heights(*region);
-        if (low <= high && ratio2(context, low, high) < config_.context.delta_2) lookAt(*column, *region, 1);
+        if (low <= high && ratio2(context, low, high) < config_.context.delta_2) lookAt(*region, 1);
       } else if (bottom >= context.inf && top <= context.sup && !has3dContext(context, region->z)) {
-        lookAt(*column, *region, 1);
+        lookAt(*region, 1);
       }
     }
   }
@@ -88,11 +87,11 @@ class ScanToMapRemoval {
       if (dx * dx + dy * dy > reach * reach) return;
       if ((column.x + column.y + look_.scan) % interval != 0) return;
       if (std::binary_search(candidates.begin(), candidates.end(), &column)) return;
-      for (const auto& region : column.regions) lookAt(column, *region, config_.evidence.misses);
+      for (Region* region : column.regions) lookAt(*region, config_.evidence.misses);
     });
   }
 
-  void lookAt(Column& column, Region& region, int misses) {
+  void lookAt(Region& region, int misses) {
     const bool is_candidate = misses == 1;
     if (!is_candidate && (!region.loose || (!region.doubtful && isHidden(region)))) return;
     bool doubtful = false;
@@ -104,8 +103,8 @@ class ScanToMapRemoval {
       if (look_.protect && region.scan == look_.scan) cubes &= ~octant.hit;
       std::uint64_t through = 0;
       if (cubes != 0 && (octant.doubted != 0 || !isHidden(map_.cornerOf(region, o), 4))) {
-        through = lookThrough(octant, map_.cornerOf(region, o), cubes);
-        if (through != 0) doubts_.push_back({&column, &region, o, through, misses});
+        through = lookThrough(region, o, cubes);
+        if (through != 0) doubts_.push_back({&region, o, through, misses});
       }
       if (is_candidate) result_.is_protected += static_cast<std::size_t>(std::popcount(octant.occupied & ~through));
       doubtful = doubtful || octant.doubted != 0;
@@ -126,12 +125,14 @@ class ScanToMapRemoval {
 
   /// The cubes that the scan sees through; notes it, and where it sees something at a cube's place, takes back the
   /// doubts.
-  std::uint64_t lookThrough(Octant& octant, const OcTreeKey& corner, std::uint64_t cubes) const {
+  std::uint64_t lookThrough(Region& region, std::size_t o, std::uint64_t cubes) const {
+    Octant& octant = region.octants[o];
+    const OcTreeKey corner = map_.cornerOf(region, o);
     std::uint64_t through = 0;
     forEachBit(cubes, [&](int bit) {
       const Look look =
           scan_.visibility == nullptr ? Look::kSeenThrough : scan_.visibility->at(scan_.view(cubeOf(corner, bit)));
-      std::uint8_t& misses = octant.misses[static_cast<std::size_t>(bit)];
+      std::uint8_t& misses = region.counts[o][static_cast<std::size_t>(bit)].misses;
       if (look == Look::kSeenThrough) {
         countUp(misses);
         through |= maskOf(bit);
@@ -149,14 +150,13 @@ class ScanToMapRemoval {
     const EvidenceConfig& evidence = config_.evidence;
     for (std::size_t d = 0; d < doubts_.size(); ++d) {
       const Doubt& doubt = doubts_[d];
-      const Octant& octant = doubt.region->octants[doubt.octant];
       const int fewest = std::min(doubt.misses, evidence.sure_misses);
       std::uint64_t due = 0, sure = 0;
       forEachBit(doubt.cubes, [&](int bit) {
-        const auto i = static_cast<std::size_t>(bit);
-        if (octant.misses[i] < fewest || (look_.revert_hits > 0 && octant.hits[i] >= look_.revert_hits)) return;
-        if (octant.misses[i] >= doubt.misses) due |= maskOf(bit);
-        if (octant.misses[i] >= evidence.sure_misses) sure |= maskOf(bit);
+        const auto [hits, misses] = doubt.region->counts[doubt.octant][static_cast<std::size_t>(bit)];
+        if (misses < fewest || (look_.revert_hits > 0 && hits >= look_.revert_hits)) return;
+        if (misses >= doubt.misses) due |= maskOf(bit);
+        if (misses >= evidence.sure_misses) sure |= maskOf(bit);
       });
       if ((due | sure) == 0) continue;
       const Neighbourhood around = lookAround(map_, map_.cornerOf(*doubt.region, doubt.octant),
@@ -166,11 +166,10 @@ class ScanToMapRemoval {
     }
     for (std::size_t d = 0; d < doubts_.size(); ++d) {
       const Doubt& doubt = doubts_[d];
-      Octant& octant = doubt.region->octants[doubt.octant];
-      gone[d] &= octant.occupied;  // a region may have been looked at twice
+      gone[d] &= doubt.region->octants[doubt.octant].occupied;  // a region may have been looked at twice
       if (gone[d] == 0) continue;
-      octant.remove(gone[d]);
-      doubt.column->stale = true;
+      doubt.region->remove(doubt.octant, gone[d]);
+      doubt.region->column->stale = true;
       result_.removed.push_back({map_.cornerOf(*doubt.region, doubt.octant), gone[d], scan_.visibility != nullptr});
     }
   }

@@ -2,34 +2,54 @@
 #include "scan_trace.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 
 namespace rhmap {
 namespace {
 
+constexpr std::size_t kAhead = 32;  // points that are looked up together
+
 /// The first hit of this scan in a region.
 void touch(Region& region, ScanTrace& trace) {
   region.scan = trace.scan;
   region.loose = true;
-  region.forEachHitOctant([](std::size_t, Octant& octant) { octant.hit = octant.fresh = octant.appeared = 0; });
+  forEachBit(region.hit_octants, [&](int o) {
+    Octant& octant = region.octants[static_cast<std::size_t>(o)];
+    octant.hit = octant.fresh = octant.appeared = 0;
+  });
   region.hit_octants = 0;
   trace.regions.push_back(&region);
 }
 
-void insertCube(Column& column, Octant& octant, int bit, int z, int firm) {
+void insertCube(Region& region, std::size_t o, int bit, int z, int firm) {
+  Column& column = *region.column;
+  Octant& octant = region.octants[o];
   const std::uint64_t mask = maskOf(bit);
   if ((octant.occupied & mask) == 0) {
-    octant.occupied |= mask;
+    region.add(o, mask);
     octant.fresh |= mask;
     const bool empty = column.h_max < column.h_min;
     column.h_min = empty ? z : std::min(column.h_min, z);
     column.h_max = empty ? z : std::max(column.h_max, z);
   }
-  const auto i = static_cast<std::size_t>(bit);
-  countUp(octant.hits[i]);
-  if (octant.hits[i] >= firm) octant.firm |= mask;
-  octant.misses[i] = 0;
+  CubeCounts& counts = region.counts[o][static_cast<std::size_t>(bit)];
+  countUp(counts.hits);
+  if (counts.hits >= firm) octant.firm |= mask;
+  counts.misses = 0;
   octant.doubted &= ~mask;
+}
+
+/// A point of the scan at this height, in keys. `index`: the column's place in the trace, below 0 if it has none yet.
+void addToColumn(Column& column, int z, std::int32_t& index, ScanTrace& trace) {
+  if (index < 0) {
+    index = static_cast<std::int32_t>(trace.columns.size());
+    trace.columns.push_back({.column = &column});
+  }
+  ScanColumn& in = trace.columns[static_cast<std::size_t>(index)];
+  in.z_min = std::min(in.z_min, z);
+  in.z_max = std::max(in.z_max, z);
+  ++in.points;
 }
 
 }  // namespace
@@ -48,39 +68,39 @@ ScanTrace traceScan(RegionMap& map, const ScanPoints& points, const OcTreeKey& s
   const auto reach = static_cast<float>(config.reach);
   const int bits = map.bits();
 
-  Column* column = nullptr;
-  Region* region = nullptr;
-  std::int32_t* index = nullptr;
-  for (std::size_t k = 0; k < points.size(); ++k) {
-    const OcTreeKey& cube = points.cube[k];
-    const auto x = static_cast<key_type>(cube[0] >> bits), y = static_cast<key_type>(cube[1] >> bits),
-               z = static_cast<key_type>(cube[2] >> bits);
-    if (column == nullptr || column->x != x || column->y != y) {
-      column = &map.getOrCreate(x, y);
-      region = nullptr;
-      index = grid.at(x, y);
+  std::array<Region*, kAhead> regions;
+  for (std::size_t first = 0; first < points.size(); first += kAhead) {
+    const std::size_t last = std::min(first + kAhead, points.size());
+    // The map is larger than the caches: ask for all that a few points need before it is read.
+    const auto at = [&](std::size_t k, unsigned axis) { return static_cast<key_type>(points.cube[k][axis] >> bits); };
+    for (std::size_t k = first; k < last; ++k) map.prefetch(at(k, 0), at(k, 1), at(k, 2));
+    for (std::size_t k = first; k < last; ++k) {
+      const key_type x = at(k, 0), y = at(k, 1), z = at(k, 2);
+      Region* region = map.find(x, y, z);
+      if (region == nullptr) region = &map.getOrCreate(map.getOrCreate(x, y), z);
+      regions[k - first] = region;
+      __builtin_prefetch(region);
     }
-    if (region == nullptr || region->z != z) {
-      region = &map.getOrCreate(*column, z);
+    for (std::size_t k = first; k < last; ++k) {
+      const Region* region = regions[k - first];
+      const std::size_t o = map.octantOf(points.cube[k]);
+      __builtin_prefetch(&region->octants[o]);
+      __builtin_prefetch(&region->counts[o][static_cast<std::size_t>(bitOf(points.cube[k]))]);
+    }
+    for (std::size_t k = first; k < last; ++k) {
+      const OcTreeKey& cube = points.cube[k];
+      Region* region = regions[k - first];
       if (region->scan != scan) touch(*region, trace);
+      if (points.range[k] <= reach)
+        if (std::int32_t* index = grid.at(region->x, region->y)) addToColumn(*region->column, cube[2], *index, trace);
+      const std::size_t o = map.octantOf(cube);
+      Octant& octant = region->octants[o];
+      const int bit = bitOf(cube);
+      if ((octant.hit & maskOf(bit)) != 0) continue;
+      octant.hit |= maskOf(bit);
+      region->hit_octants |= std::uint64_t{1} << o;
+      if (config.insert) insertCube(*region, o, bit, cube[2], config.firm);
     }
-    if (index != nullptr && points.range[k] <= reach) {
-      if (*index < 0) {
-        *index = static_cast<std::int32_t>(trace.columns.size());
-        trace.columns.push_back({.column = column});
-      }
-      ScanColumn& in = trace.columns[static_cast<std::size_t>(*index)];
-      in.z_min = std::min(in.z_min, int{cube[2]});
-      in.z_max = std::max(in.z_max, int{cube[2]});
-      ++in.points;
-    }
-    const std::size_t o = map.octantOf(cube);
-    Octant& octant = region->octants[o];
-    const int bit = bitOf(cube);
-    if ((octant.hit & maskOf(bit)) != 0) continue;
-    octant.hit |= maskOf(bit);
-    region->hit_octants |= std::uint64_t{1} << o;
-    if (config.insert) insertCube(*column, octant, bit, cube[2], config.firm);
   }
   return trace;
 }

@@ -23,6 +23,31 @@ struct ScanTrace {
   std::uint32_t scan = 0;           ///< its number, from 1
   std::vector<ScanColumn> columns;  ///< as far as contexts reach
   std::vector<Region*> regions;     ///< all with a hit
+
+  /// Visits the regions.
+  template <class F>
+  void forEachRegion(F&& visit) const {
+    constexpr std::size_t kAhead = 6;  // regions lie all over the memory: ask for them some time before they are needed
+    for (std::size_t i = 0; i < regions.size(); ++i) {
+      if (i + 2 * kAhead < regions.size()) __builtin_prefetch(regions[i + 2 * kAhead]);
+      if (i + kAhead < regions.size()) {
+        const Region& soon = *regions[i + kAhead];
+        forEachBit(soon.hit_octants, [&](int o) { __builtin_prefetch(&soon.octants[static_cast<std::size_t>(o)]); });
+      }
+      visit(*regions[i]);
+    }
+  }
+
+  /// Visits the octants with a hit: visit(region, number, octant).
+  template <class F>
+  void forEachHitOctant(F&& visit) const {
+    forEachRegion([&](Region& region) {
+      forEachBit(region.hit_octants, [&](int o) {
+        const auto number = static_cast<std::size_t>(o);
+        visit(region, number, region.octants[number]);
+      });
+    });
+  }
 };
 
 struct TraceConfig {

@@ -33,7 +33,8 @@ TEST_P(RegionSizes, EachCubeHasOneBitInOneOctant) {
                         .y = static_cast<key_type>(cube[1] >> map.bits()),
                         .z = static_cast<key_type>(cube[2] >> map.bits()),
                         .plane = {},
-                        .octants = {}};
+                        .octants = {},
+                        .counts = {}};
     ASSERT_LT(map.octantOf(cube), map.octants());
     ASSERT_EQ(cubeOf(map.cornerOf(region, map.octantOf(cube)), bitOf(cube)), cube);
   }

@@ -119,7 +119,7 @@ TEST(ScanToMapRemoval, LeavesWhatHasStoppedToTheBackEndsGuard) {
     look.ghost(10, 0);
     look.map().forEachColumn([](Column& column) {
       for (const auto& region : column.regions)
-        for (Octant& octant : region->octants) octant.hits.fill(20);
+        for (OctantCounts& counts : region->counts) counts.fill({.hits = 20, .misses = 0});
     });
     EXPECT_EQ(cubesOf(look.scan()) > 0, revert_hits == 0);
   }

@@ -26,7 +26,7 @@ inline Octant& occupy(RegionMap& map, const OcTreeKey& cube) {
       map.getOrCreate(static_cast<key_type>(cube[0] >> map.bits()), static_cast<key_type>(cube[1] >> map.bits()));
   Region& region = map.getOrCreate(column, static_cast<key_type>(cube[2] >> map.bits()));
   Octant& octant = region.octants[map.octantOf(cube)];
-  octant.occupied |= maskOf(bitOf(cube));
+  if ((octant.occupied & maskOf(bitOf(cube))) == 0) region.add(map.octantOf(cube), maskOf(bitOf(cube)));
   column.stale = true;
   return octant;
 }

@@ -13,9 +13,9 @@
 #include "rhmap/core/block.hpp"
 #include "rhmap/core/block_index.hpp"
 #include "rhmap/core/block_journal.hpp"
-#include "rhmap/core/block_pool.hpp"
 #include "rhmap/core/block_search.hpp"
 #include "rhmap/core/octet_pool.hpp"
+#include "rhmap/core/record_pool.hpp"
 #include "rhmap/core/region_editor.hpp"
 #include "rhmap/core/trunk.hpp"
 
@@ -359,7 +359,7 @@ class BlockStore {
   }
 
   Block* createBlock(const OcTreeKey& corner, int level, Block* parent) {
-    Block* block = blocks_.allocate();
+    auto* block = static_cast<Block*>(blocks_.allocate());
     block->mask.fill(0);
     block->level = static_cast<std::uint8_t>(level);
     block->corner = corner;
@@ -383,7 +383,7 @@ class BlockStore {
   }
 
   BlockIndex<Block> index_;
-  BlockPool blocks_;
+  RecordPool blocks_{sizeof(Block)};
   OctetPool<NODE> nodes_{this, childrenAround};
   Block* root_ = nullptr;
   Trunk<NODE> trunk_;
