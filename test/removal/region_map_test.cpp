@@ -67,7 +67,7 @@ TEST_P(RegionSizes, HeightsFollowInsertionsAndRemovals) {
     for (auto it = all.begin(); it != all.end();) {  // every second one goes
       const OcTreeKey cube(static_cast<key_type>(std::get<0>(*it)), static_cast<key_type>(std::get<1>(*it)),
                            static_cast<key_type>(std::get<2>(*it)));
-      occupy(map, cube).remove(maskOf(bitOf(cube)));
+      map.regionOf(cube)->remove(map.octantOf(cube), maskOf(bitOf(cube)));
       it = all.erase(it);
       if (it != all.end()) ++it;
     }
