@@ -53,7 +53,6 @@ std::size_t MovingHits::reject(const RegionMap& map, const ScanTrace& trace, con
     rejected += static_cast<std::size_t>(std::popcount(out));
     if (const std::uint64_t known = out & ~octant.fresh; known != 0) removed.push_back({corner, known, false});
     region.remove(o, out);
-    region.column->stale = true;
   });
   return rejected;
 }

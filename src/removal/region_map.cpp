@@ -25,6 +25,7 @@ void Region::remove(std::size_t octant, std::uint64_t old_cubes) {
   from.doubted &= ~old_cubes;
   from.firm &= ~old_cubes;
   cubes = static_cast<std::uint16_t>(cubes - std::popcount(old_cubes));
+  column->stale = true;
   forEachBit(old_cubes, [&](int bit) { counts[octant][static_cast<std::size_t>(bit)] = {}; });
 }
 

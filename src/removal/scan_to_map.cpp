@@ -169,7 +169,6 @@ class ScanToMapRemoval {
       gone[d] &= doubt.region->octants[doubt.octant].occupied;  // a region may have been looked at twice
       if (gone[d] == 0) continue;
       doubt.region->remove(doubt.octant, gone[d]);
-      doubt.region->column->stale = true;
       result_.removed.push_back({map_.cornerOf(*doubt.region, doubt.octant), gone[d], scan_.visibility != nullptr});
     }
   }
