@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "moving_hits.hpp"
 
+#include "cell_counters.hpp"
 #include "evidence.hpp"
 
 namespace rhmap {
@@ -57,25 +58,28 @@ std::size_t MovingHits::reject(const RegionMap& map, const ScanTrace& trace, con
   return rejected;
 }
 
+/// Octant::appeared: what is new and was seen through by past scans.
 void MovingHits::lookBack(const RegionMap& map, const ScanTrace& trace) const {
+  std::vector<CubesAt> fresh;
+  std::vector<Octant*> octants;
   trace.forEachHitOctant([&](Region& region, std::size_t o, Octant& octant) {
-    const std::uint64_t fresh = octant.fresh & ~octant.ground;
-    if (fresh == 0) return;
-    const OcTreeKey corner = map.cornerOf(region, o);
-    forEachBit(fresh, [&](int bit) {
-      if (hasCome(cubeOf(corner, bit))) octant.appeared |= maskOf(bit);
-    });
+    const std::uint64_t cubes = octant.fresh & ~octant.ground;
+    if (cubes == 0) return;
+    fresh.push_back({map.cornerOf(region, o), cubes});
+    octants.push_back(&octant);
   });
-}
-
-bool MovingHits::hasCome(const OcTreeKey& cube) const {
-  int seen = 0, contrary = 0;
+  std::vector<Counters<8>> seen(fresh.size()), contrary(fresh.size());
+  std::vector<CubeLooks> looks(fresh.size());
   for (const Past& past : past_) {
-    const Look look = past.visibility->at(past.view(cube));
-    seen += look == Look::kSeenThrough;
-    contrary += look == Look::kFilled;
+    past.visibility->look(past.view, fresh, looks);
+    for (std::size_t i = 0; i < looks.size(); ++i) {
+      seen[i].countUp(looks[i].seen_through);
+      contrary[i].countUp(looks[i].filled);
+    }
   }
-  return seen >= config_.look_back.seen && contrary <= config_.look_back.contrary;
+  for (std::size_t i = 0; i < fresh.size(); ++i)
+    octants[i]->appeared = seen[i].atLeast(static_cast<unsigned>(config_.look_back.seen)) &
+                           ~contrary[i].atLeast(static_cast<unsigned>(config_.look_back.contrary) + 1);
 }
 
 void MovingHits::remember(std::uint32_t scan, const ScanContext& context) {

@@ -33,7 +33,6 @@ class MovingHits {
   };
 
   void lookBack(const RegionMap& map, const ScanTrace& trace) const;
-  bool hasCome(const OcTreeKey& cube) const;
 
   RemovalConfig config_;
   std::deque<Past> past_;

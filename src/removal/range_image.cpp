@@ -3,6 +3,8 @@
 
 #include <algorithm>
 
+#include "pixels.hpp"
+
 namespace rhmap {
 namespace {
 
@@ -62,12 +64,7 @@ RangeImage::RangeImage(const Projection& projection, const ScanPoints& scan) : p
   ranges_.assign(pixels, kEmpty);
   points_.assign(pixels, -1);
   std::vector<std::int32_t> pixel(scan.size());
-  const auto rows = static_cast<float>(projection.rows);
-  for (std::size_t k = 0; k < scan.size(); ++k) {
-    const float row = projection.rowOf(scan.x[k], scan.y[k], scan.z[k]);
-    const int column = projection.columnOf(scan.x[k], scan.y[k]);
-    pixel[k] = row >= 0 && row < rows ? static_cast<int>(row) * projection.columns + column : -1;
-  }
+  pixelsOf(projection, scan.x.data(), scan.y.data(), scan.z.data(), scan.size(), pixel.data());
   for (std::size_t k = 0; k < scan.size(); ++k) {
     if (pixel[k] < 0) continue;
     const auto at = static_cast<std::size_t>(pixel[k]);

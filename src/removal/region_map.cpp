@@ -59,9 +59,10 @@ Column& RegionMap::getOrCreate(key_type x, key_type y) {
   auto* column = new Column{.x = x, .y = y, .regions = {}};
   columns_.insert(nameOf(x, y), column);
   in_order_.push_back(column);
-  for (const Cubes& cubes : read_(static_cast<key_type>(x << bits_), static_cast<key_type>(y << bits_), size())) {
-    Region& region = getOrCreate(*column, static_cast<key_type>(cubes.corner[2] >> bits_));
-    region.add(octantOf(cubes.corner), cubes.occupied);
+  for (const auto& [corner, cubes] :
+       read_(static_cast<key_type>(x << bits_), static_cast<key_type>(y << bits_), size())) {
+    Region& region = getOrCreate(*column, static_cast<key_type>(corner[2] >> bits_));
+    region.add(octantOf(corner), cubes);
     column->stale = true;
   }
   refreshHeights(*column);

@@ -29,6 +29,12 @@ struct alignas(64) Octant {
   std::uint64_t appeared = 0;  ///< of these, cubes that past scans have seen through
 };
 
+/// Some cubes of an octant, which is named by its lowest cube.
+struct CubesAt {
+  OcTreeKey corner;
+  std::uint64_t cubes;
+};
+
 /// What is counted of a cube, up to 255. Apart from the masks, which are read far more often.
 struct CubeCounts {
   std::uint8_t hits = 0;    ///< scans that have hit it
@@ -105,13 +111,8 @@ inline std::size_t mortonOf(const OcTreeKey& cube) {
 /// hash map of columns. A cache: what is forgotten is read again from the tree when a scan comes by.
 class RegionMap {
  public:
-  /// Some occupied cubes of the tree: an octant's lowest cube, and its cubes.
-  struct Cubes {
-    OcTreeKey corner;
-    std::uint64_t occupied;
-  };
   /// Reads a column of the tree: all octants with occupied cubes between (x, y) and (x + size, y + size), in keys.
-  using Reader = std::function<std::vector<Cubes>(key_type x, key_type y, int size)>;
+  using Reader = std::function<std::vector<CubesAt>(key_type x, key_type y, int size)>;
 
   /// Regions of `size` cubes: 4, 8 or 16.
   RegionMap(int size, Reader read);
@@ -128,11 +129,20 @@ class RegionMap {
   Region* find(int x, int y, int z) const { return regions_.find(nameOf(x, y, z)); }
   Column& getOrCreate(key_type x, key_type y);
   Region& getOrCreate(Column& column, key_type z);
-  /// Asks for what `find` will read.
-  void prefetch(int x, int y, int z) const { regions_.prefetch(nameOf(x, y, z)); }
+  /// The region of a cube.
+  Region& getOrCreate(const OcTreeKey& cube) {
+    const auto part = [&](unsigned axis) { return static_cast<key_type>(cube[axis] >> bits_); };
+    return getOrCreate(getOrCreate(part(0), part(1)), part(2));
+  }
+  /// Regions by one number each, for who looks up many: what `find` will read can be asked for before.
+  std::uint64_t nameOf(const OcTreeKey& cube) const {
+    return nameOf(cube[0] >> bits_, cube[1] >> bits_, cube[2] >> bits_);
+  }
+  Region* find(std::uint64_t name) const { return regions_.find(name); }
+  void prefetch(std::uint64_t name) const { regions_.prefetch(name); }
 
   /// The region that holds a cube, if it is known.
-  Region* regionOf(const OcTreeKey& cube) const { return find(cube[0] >> bits_, cube[1] >> bits_, cube[2] >> bits_); }
+  Region* regionOf(const OcTreeKey& cube) const { return find(nameOf(cube)); }
   /// Number of the octant of a cube in its region.
   std::size_t octantOf(const OcTreeKey& cube) const { return mortonOf(cube) >> 6 & (octants() - 1); }
   /// Lowest cube of octant `o` of a region.

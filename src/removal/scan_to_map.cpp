@@ -9,7 +9,7 @@
 namespace rhmap {
 namespace {
 
-/// The cubes of an octant that the scan sees through, waiting for judgement.
+/// Cubes of an octant that wait to be looked at; then those that the scan sees through, waiting for judgement.
 struct Doubt {
   Region* region;
   std::size_t octant;
@@ -36,6 +36,7 @@ class ScanToMapRemoval {
     }
     for (const Context3d& context : scan_.regions) lookBetweenBounds(context);
     if (look_.everywhere) lookEverywhere(candidates);
+    lookThrough();
     judge();
   }
 
@@ -94,22 +95,20 @@ class ScanToMapRemoval {
   void lookAt(Region& region, int misses) {
     const bool is_candidate = misses == 1;
     if (!is_candidate && (!region.loose || (!region.doubtful && isHidden(region)))) return;
-    bool doubtful = false;
+    region.doubtful = false;
     for (std::size_t o = 0; o < region.octants.size(); ++o) {
-      Octant& octant = region.octants[o];
+      const Octant& octant = region.octants[o];
+      region.doubtful = region.doubtful || octant.doubted != 0;
       std::uint64_t cubes = octant.occupied & ~octant.safe;
       // With nothing but the ratio to go by, all that is near the ground has to stay.
       if (scan_.visibility == nullptr) cubes &= ~octant.ground;
       if (look_.protect && region.scan == look_.scan) cubes &= ~octant.hit;
-      std::uint64_t through = 0;
-      if (cubes != 0 && (octant.doubted != 0 || !isHidden(map_.cornerOf(region, o), 4))) {
-        through = lookThrough(region, o, cubes);
-        if (through != 0) doubts_.push_back({&region, o, through, misses});
-      }
-      if (is_candidate) result_.is_protected += static_cast<std::size_t>(std::popcount(octant.occupied & ~through));
-      doubtful = doubtful || octant.doubted != 0;
+      if (is_candidate) result_.is_protected += static_cast<std::size_t>(std::popcount(octant.occupied));
+      const OcTreeKey corner = map_.cornerOf(region, o);
+      if (cubes == 0 || (octant.doubted == 0 && isHidden(corner, 4))) continue;
+      doubts_.push_back({&region, o, cubes, misses});
+      places_.push_back({corner, cubes});
     }
-    region.doubtful = doubtful;
   }
 
   bool isHidden(const Region& region) const { return isHidden(map_.cornerOf(region, 0), map_.size()); }
@@ -123,26 +122,33 @@ class ScanToMapRemoval {
     return scan_.visibility->hides(centre, 0.8661F * static_cast<float>(size * resolution_));
   }
 
-  /// The cubes that the scan sees through; notes it, and where it sees something at a cube's place, takes back the
-  /// doubts.
-  std::uint64_t lookThrough(Region& region, std::size_t o, std::uint64_t cubes) const {
-    Octant& octant = region.octants[o];
-    const OcTreeKey corner = map_.cornerOf(region, o);
-    std::uint64_t through = 0;
-    forEachBit(cubes, [&](int bit) {
-      const Look look =
-          scan_.visibility == nullptr ? Look::kSeenThrough : scan_.visibility->at(scan_.view(cubeOf(corner, bit)));
-      std::uint8_t& misses = region.counts[o][static_cast<std::size_t>(bit)].misses;
-      if (look == Look::kSeenThrough) {
-        countUp(misses);
-        through |= maskOf(bit);
-      } else if (look == Look::kFilled) {
-        misses = 0;
-        octant.doubted &= ~maskOf(bit);
-      }
-    });
-    octant.doubted |= through;
-    return through;
+  /// Looks at all cubes that wait for it. Notes which the scan sees through, and where it sees something at a cube's
+  /// place, takes back the doubts.
+  void lookThrough() {
+    std::vector<CubeLooks> looks(places_.size());
+    if (scan_.visibility == nullptr) {
+      for (std::size_t d = 0; d < looks.size(); ++d) looks[d].seen_through = places_[d].cubes;
+    } else {
+      scan_.visibility->look(scan_.view, places_, looks);
+    }
+    std::size_t kept = 0;
+    for (std::size_t d = 0; d < doubts_.size(); ++d) {
+      Doubt doubt = doubts_[d];
+      const auto [filled, through] = looks[d];
+      if ((filled | through) == 0) continue;
+      Region& region = *doubt.region;
+      OctantCounts& counts = region.counts[doubt.octant];
+      forEachBit(through, [&](int bit) { countUp(counts[static_cast<std::size_t>(bit)].misses); });
+      forEachBit(filled, [&](int bit) { counts[static_cast<std::size_t>(bit)].misses = 0; });
+      Octant& octant = region.octants[doubt.octant];
+      octant.doubted = (octant.doubted & ~filled) | through;
+      region.doubtful = region.doubtful || octant.doubted != 0;
+      if (through == 0) continue;
+      if (doubt.misses == 1) result_.is_protected -= static_cast<std::size_t>(std::popcount(through));
+      doubt.cubes = through;
+      doubts_[kept++] = doubt;
+    }
+    doubts_.resize(kept);
   }
 
   void judge() {
@@ -180,6 +186,7 @@ class ScanToMapRemoval {
   const LookConfig& look_;
   RemovalResult& result_;
   std::vector<Doubt> doubts_;
+  std::vector<CubesAt> places_;  // of the doubts
 };
 
 }  // namespace

@@ -66,26 +66,31 @@ ScanTrace traceScan(RegionMap& map, const ScanPoints& points, const OcTreeKey& s
   ScanTrace trace{.scan = scan, .columns = {}, .regions = {}};
   ColumnGrid grid(map, sensor, config.reach, config.resolution);
   const auto reach = static_cast<float>(config.reach);
-  const int bits = map.bits();
 
+  std::array<std::uint64_t, kAhead> names;
   std::array<Region*, kAhead> regions;
   for (std::size_t first = 0; first < points.size(); first += kAhead) {
     const std::size_t last = std::min(first + kAhead, points.size());
     // The map is larger than the caches: ask for all that a few points need before it is read.
-    const auto at = [&](std::size_t k, unsigned axis) { return static_cast<key_type>(points.cube[k][axis] >> bits); };
-    for (std::size_t k = first; k < last; ++k) map.prefetch(at(k, 0), at(k, 1), at(k, 2));
     for (std::size_t k = first; k < last; ++k) {
-      const key_type x = at(k, 0), y = at(k, 1), z = at(k, 2);
-      Region* region = map.find(x, y, z);
-      if (region == nullptr) region = &map.getOrCreate(map.getOrCreate(x, y), z);
-      regions[k - first] = region;
+      names[k - first] = map.nameOf(points.cube[k]);
+      if (k == first || names[k - first] != names[k - first - 1]) map.prefetch(names[k - first]);
+    }
+    for (std::size_t k = first; k < last; ++k) {
+      Region*& region = regions[k - first];
+      if (k > first && names[k - first] == names[k - first - 1]) {
+        region = regions[k - first - 1];
+        continue;
+      }
+      region = map.find(names[k - first]);
+      if (region == nullptr) region = &map.getOrCreate(points.cube[k]);
       __builtin_prefetch(region);
     }
     for (std::size_t k = first; k < last; ++k) {
-      const Region* region = regions[k - first];
+      const Region& region = *regions[k - first];
       const std::size_t o = map.octantOf(points.cube[k]);
-      __builtin_prefetch(&region->octants[o]);
-      __builtin_prefetch(&region->counts[o][static_cast<std::size_t>(bitOf(points.cube[k]))]);
+      __builtin_prefetch(&region.octants[o]);
+      __builtin_prefetch(&region.counts[o][static_cast<std::size_t>(bitOf(points.cube[k]))]);
     }
     for (std::size_t k = first; k < last; ++k) {
       const OcTreeKey& cube = points.cube[k];

@@ -22,7 +22,7 @@ struct Reading {
   const OcTree& tree;
   key_type x, y;
   int size;
-  std::vector<RegionMap::Cubes> cubes;
+  std::vector<CubesAt> cubes;
 
   /// `node` holds the cells from `corner` on; it may be a leaf above this depth.
   void below(const OcTreeNode* node, const OcTreeKey& corner, unsigned depth) {
@@ -50,7 +50,7 @@ struct Reading {
 
 }  // namespace
 
-std::vector<RegionMap::Cubes> readColumn(const OcTree& tree, key_type x, key_type y, int size) {
+std::vector<CubesAt> readColumn(const OcTree& tree, key_type x, key_type y, int size) {
   Reading reading{tree, x, y, size, {}};
   if (const OcTreeNode* root = tree.getRoot()) reading.below(root, {0, 0, 0}, 0);
   return std::move(reading.cubes);

@@ -10,6 +10,6 @@ namespace rhmap {
 
 /// The octants with occupied cells of a tree between (x, y) and (x + size, y + size), in keys, at any height. `x` and
 /// `y` are multiples of `size`, a power of two of at least 4.
-std::vector<RegionMap::Cubes> readColumn(const OcTree& tree, key_type x, key_type y, int size);
+std::vector<CubesAt> readColumn(const OcTree& tree, key_type x, key_type y, int size);
 
 }  // namespace rhmap

@@ -3,6 +3,8 @@
 
 #include <algorithm>
 
+#include "pixels.hpp"
+
 namespace rhmap {
 namespace {
 
@@ -105,6 +107,43 @@ void Visibility::summarise(const Farthest& own) {
   farthest_.push_back(std::move(around));
 }
 
+Look Visibility::at(const std::array<float, 3>& p) const {
+  std::int32_t pixel = -1;
+  pixelsOf(projection_, &p[0], &p[1], &p[2], 1, &pixel);
+  return at(p, std::sqrt(p[0] * p[0] + p[1] * p[1] + p[2] * p[2]), pixel);
+}
+
+void Visibility::look(const SensorView& view, std::span<const CubesAt> places, std::span<CubeLooks> looks) const {
+  constexpr std::size_t kBatch = 512;  // cubes, in a few loops that are vector code
+  std::array<float, kBatch> x, y, z, range;
+  std::array<std::int32_t, kBatch> pixels;
+  for (std::size_t first = 0, last = 0; first < places.size(); first = last) {
+    std::size_t n = 0;
+    for (; last < places.size() && n + 64 <= kBatch; ++last) {
+      const OcTreeKey& corner = places[last].corner;
+      forEachBit(places[last].cubes, [&](int bit) {
+        const OcTreeKey cube = cubeOf(corner, bit);
+        x[n] = static_cast<float>(cube[0]), y[n] = static_cast<float>(cube[1]), z[n] = static_cast<float>(cube[2]);
+        ++n;
+      });
+    }
+    for (std::size_t i = 0; i < n; ++i) {
+      const auto [px, py, pz] = view(x[i], y[i], z[i]);
+      x[i] = px, y[i] = py, z[i] = pz;
+      range[i] = std::sqrt(px * px + py * py + pz * pz);
+    }
+    pixelsOf(projection_, x.data(), y.data(), z.data(), n, pixels.data());
+    for (std::size_t place = first, i = 0; place < last; ++place) {
+      CubeLooks& of = looks[place] = {};
+      for (std::uint64_t rest = places[place].cubes; rest != 0; rest &= rest - 1, ++i) {
+        const Look look = at({x[i], y[i], z[i]}, range[i], pixels[i]);
+        if (look == Look::kFilled) of.filled |= rest & -rest;
+        if (look == Look::kSeenThrough) of.seen_through |= rest & -rest;
+      }
+    }
+  }
+}
+
 bool Visibility::hides(const std::array<float, 3>& p, float radius) const {
   const float range = std::sqrt(p[0] * p[0] + p[1] * p[1] + p[2] * p[2]);
   // The blocks around reach at least a block's width to all sides; a window of pixels comes on top.
@@ -122,12 +161,16 @@ bool Visibility::hides(const std::array<float, 3>& p, float radius) const {
   return false;
 }
 
-Look Visibility::around(const std::array<float, 3>& p, float range, int row, int column) const {
+Look Visibility::at(const std::array<float, 3>& p, float range, std::int32_t pixel) const {
+  if (pixel < 0) return Look::kUnknown;
+  const auto centre = static_cast<std::size_t>(pixel);
+  const float behind = range + behind_, before = range - before_;
+  if (ranges_[centre] < before) return Look::kUnknown;  // most are behind something
+  if (ranges_[centre] <= behind) return Look::kFilled;  // or what is seen
+  const int row = pixel / projection_.columns, column = pixel % projection_.columns;
   const auto step = static_cast<std::size_t>(range * kStepsPerMetre);
   const Window window = step < windows_.size() ? windows_[step] : windows_.back();
-  const float behind = range + behind_, before = range - before_;
   const float surface = std::max(surface_, surface_share_ * range);
-  const auto centre = static_cast<std::size_t>(row * projection_.columns + column);
   const bool empty = ranges_[centre] == RangeImage::kEmpty;
   bool seen = false, clear = true;
   for (int i = std::max(0, row - window.up); i <= std::min(projection_.rows - 1, row + window.up); ++i) {

@@ -4,9 +4,11 @@
 #include <array>
 #include <cmath>
 #include <cstdint>
+#include <span>
 #include <vector>
 
 #include "range_image.hpp"
+#include "region_map.hpp"
 #include "rhmap/octree/key_space.hpp"
 
 namespace rhmap {
@@ -21,9 +23,6 @@ class SensorView {
     const float x = kx - origin_[0], y = ky - origin_[1], z = kz - origin_[2];
     return {rows_[0][0] * x + rows_[0][1] * y + rows_[0][2] * z, rows_[1][0] * x + rows_[1][1] * y + rows_[1][2] * z,
             rows_[2][0] * x + rows_[2][1] * y + rows_[2][2] * z};
-  }
-  std::array<float, 3> operator()(const OcTreeKey& cube) const {
-    return (*this)(static_cast<float>(cube[0]), static_cast<float>(cube[1]), static_cast<float>(cube[2]));
   }
 
   /// The sensor, in keys.
@@ -41,22 +40,23 @@ enum class Look : std::int8_t {
   kSeenThrough = 1,  ///< what is seen lies behind it
 };
 
+/// What a scan says about cubes of an octant; it does not know the others.
+struct CubeLooks {
+  std::uint64_t filled = 0;
+  std::uint64_t seen_through = 0;
+};
+
 /// Looks at cubes through a scan's range image.
 class Visibility {
  public:
   /// `cube`: edge of a cube [m].
   Visibility(const RangeImage& image, const ScanPoints& scan, const VisibilityConfig& config, double cube);
 
-  /// At a cube's centre in the sensor's frame [m].
-  Look at(const std::array<float, 3>& p) const {
-    const float row = projection_.rowOf(p[0], p[1], p[2]);
-    if (!(row >= 0 && row < static_cast<float>(projection_.rows))) return Look::kUnknown;
-    const int column = projection_.columnOf(p[0], p[1]);
-    const float range = std::sqrt(p[0] * p[0] + p[1] * p[1] + p[2] * p[2]);
-    const int i = static_cast<int>(row);
-    if (ranges_[static_cast<std::size_t>(i * projection_.columns + column)] < range - before_) return Look::kUnknown;
-    return around(p, range, i, column);
-  }
+  /// At a place in the sensor's frame, a cube's centre [m].
+  Look at(const std::array<float, 3>& p) const;
+
+  /// At many cubes: `looks` is as long as `places`.
+  void look(const SensorView& view, std::span<const CubesAt> places, std::span<CubeLooks> looks) const;
 
   /// True if no cube within `radius` [m] of a place (sensor's frame) can be seen through: nothing that is seen around
   /// it lies behind.
@@ -66,7 +66,7 @@ class Visibility {
   struct Window {
     std::int8_t up, beside;
   };
-  Look around(const std::array<float, 3>& p, float range, int row, int column) const;
+  Look at(const std::array<float, 3>& p, float range, std::int32_t pixel) const;
 
   static constexpr float kStepsPerMetre = 4;
   static constexpr int kSmallestBlock = 4;  // pixels of an edge

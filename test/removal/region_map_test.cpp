@@ -148,7 +148,7 @@ TEST(RegionMap, ForgetsWhatIsFarAndReadsItAgain) {
   int reads = 0;
   RegionMap map(8, [&](key_type, key_type, int) {
     ++reads;
-    return std::vector<RegionMap::Cubes>();
+    return std::vector<CubesAt>();
   });
   const OcTreeKey here(kTreeMaxVal, kTreeMaxVal, kTreeMaxVal);
   map.getOrCreate(kTreeMaxVal >> 3, kTreeMaxVal >> 3);

@@ -17,7 +17,7 @@ inline constexpr double kCube = 0.1;  // [m]
 
 /// A map without a tree behind it.
 inline RegionMap emptyMap(int size = 8) {
-  return RegionMap(size, [](key_type, key_type, int) { return std::vector<RegionMap::Cubes>(); });
+  return RegionMap(size, [](key_type, key_type, int) { return std::vector<CubesAt>(); });
 }
 
 /// Puts a cube into the map.
