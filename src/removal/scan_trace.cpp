@@ -22,22 +22,36 @@ void touch(Region& region, ScanTrace& trace) {
   trace.regions.push_back(&region);
 }
 
-void insertCube(Region& region, std::size_t o, int bit, int z, int firm) {
-  Column& column = *region.column;
+/// The hit cubes of an octant: in the map from now on, and with nothing that speaks against them.
+void insert(Region& region, std::size_t o, int firm) {
   Octant& octant = region.octants[o];
-  const std::uint64_t mask = maskOf(bit);
-  if ((octant.occupied & mask) == 0) {
-    region.add(o, mask);
-    octant.fresh |= mask;
+  OctantCounts& counts = region.counts[o];
+  octant.fresh = octant.hit & ~octant.occupied;
+  octant.doubted &= ~octant.hit;
+  forEachBit(octant.hit, [&](int bit) {
+    CubeCounts& of = counts[static_cast<std::size_t>(bit)];
+    countUp(of.hits);
+    of.misses = 0;
+    octant.firm |= std::uint64_t{of.hits >= firm} << bit;
+  });
+  region.add(o, octant.fresh);
+}
+
+/// H{max,min} with what a scan has added to a region.
+void raiseHeights(const RegionMap& map, const Region& region) {
+  Column& column = *region.column;
+  forEachBit(region.hit_octants, [&](int o) {
+    const auto number = static_cast<std::size_t>(o);
+    const std::uint64_t fresh = region.octants[number].fresh;
+    if (fresh == 0) return;
+    const int corner = map.cornerOf(region, number)[2];
+    int low = 0, high = 3;
+    while ((fresh & layerOf(low)) == 0) ++low;
+    while ((fresh & layerOf(high)) == 0) --high;
     const bool empty = column.h_max < column.h_min;
-    column.h_min = empty ? z : std::min(column.h_min, z);
-    column.h_max = empty ? z : std::max(column.h_max, z);
-  }
-  CubeCounts& counts = region.counts[o][static_cast<std::size_t>(bit)];
-  countUp(counts.hits);
-  if (counts.hits >= firm) octant.firm |= mask;
-  counts.misses = 0;
-  octant.doubted &= ~mask;
+    column.h_min = empty ? corner + low : std::min(column.h_min, corner + low);
+    column.h_max = empty ? corner + high : std::max(column.h_max, corner + high);
+  });
 }
 
 /// A point of the scan at this height, in keys. `index`: the column's place in the trace, below 0 if it has none yet.
@@ -90,7 +104,6 @@ ScanTrace traceScan(RegionMap& map, const ScanPoints& points, const OcTreeKey& s
       const Region& region = *regions[k - first];
       const std::size_t o = map.octantOf(points.cube[k]);
       __builtin_prefetch(&region.octants[o]);
-      __builtin_prefetch(&region.counts[o][static_cast<std::size_t>(bitOf(points.cube[k]))]);
     }
     for (std::size_t k = first; k < last; ++k) {
       const OcTreeKey& cube = points.cube[k];
@@ -99,13 +112,15 @@ ScanTrace traceScan(RegionMap& map, const ScanPoints& points, const OcTreeKey& s
       if (points.range[k] <= reach)
         if (std::int32_t* index = grid.at(region->x, region->y)) addToColumn(*region->column, cube[2], *index, trace);
       const std::size_t o = map.octantOf(cube);
-      Octant& octant = region->octants[o];
-      const int bit = bitOf(cube);
-      if ((octant.hit & maskOf(bit)) != 0) continue;
-      octant.hit |= maskOf(bit);
+      region->octants[o].hit |= maskOf(bitOf(cube));
       region->hit_octants |= std::uint64_t{1} << o;
-      if (config.insert) insertCube(*region, o, bit, cube[2], config.firm);
     }
+  }
+  if (config.insert) {
+    trace.forEachRegion<true>([&](Region& region) {
+      forEachBit(region.hit_octants, [&](int o) { insert(region, static_cast<std::size_t>(o), config.firm); });
+      raiseHeights(map, region);
+    });
   }
   return trace;
 }

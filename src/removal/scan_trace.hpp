@@ -24,15 +24,22 @@ struct ScanTrace {
   std::vector<ScanColumn> columns;  ///< as far as contexts reach
   std::vector<Region*> regions;     ///< all with a hit
 
-  /// Visits the regions.
-  template <class F>
+  /// Visits the regions. They lie all over the memory: their hit octants, and if wanted the counts of these, are asked
+  /// for some time before they are needed.
+  template <bool kCounts = false, class F>
   void forEachRegion(F&& visit) const {
-    constexpr std::size_t kAhead = 6;  // regions lie all over the memory: ask for them some time before they are needed
+    constexpr std::size_t kAhead = 6;
     for (std::size_t i = 0; i < regions.size(); ++i) {
       if (i + 2 * kAhead < regions.size()) __builtin_prefetch(regions[i + 2 * kAhead]);
       if (i + kAhead < regions.size()) {
         const Region& soon = *regions[i + kAhead];
-        forEachBit(soon.hit_octants, [&](int o) { __builtin_prefetch(&soon.octants[static_cast<std::size_t>(o)]); });
+        forEachBit(soon.hit_octants, [&](int o) {
+          const auto number = static_cast<std::size_t>(o);
+          __builtin_prefetch(&soon.octants[number]);
+          if (!kCounts) return;
+          __builtin_prefetch(&soon.counts[number].front());
+          __builtin_prefetch(&soon.counts[number].back());
+        });
       }
       visit(*regions[i]);
     }
