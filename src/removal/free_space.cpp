@@ -161,7 +161,8 @@ CellGrid FreeSpace::stayed() {
 /// Takes the scan's cells into the tiles' counters, and finds the void.
 void FreeSpace::update() {
   const CellGrid clear = crossed_.eroded();
-  const CellGrid filled = stayed().dilated();  // nor are those around it void any longer
+  CellGrid filled = stayed();
+  if (!filled.empty()) filled = filled.dilated();  // nor are those around it void any longer
   forEachTile([&](Tile& tile, int tx, int ty) {
     for (int i = 0; i < 64; ++i) {
       const int cx = tx + i % 8, cy = ty + i / 8;

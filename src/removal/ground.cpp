@@ -85,7 +85,7 @@ void GroundEstimation::update(const RegionMap& map, const ScanTrace& trace) cons
     }
     for (Region* region : column.regions) {
       if (region->z > lowest->z + 1) break;
-      if (anew || region->scan == trace.scan) mark(map, column, *region, !anew);
+      if (anew || (region->scan == trace.scan && region->hasFresh())) mark(map, column, *region, !anew);
     }
   }
 }

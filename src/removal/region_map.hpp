@@ -16,6 +16,11 @@
 
 namespace rhmap {
 
+template <class F>
+void forEachBit(std::uint64_t bits, F&& visit) {
+  for (; bits != 0; bits &= bits - 1) visit(std::countr_zero(bits));
+}
+
 /// 4 x 4 x 4 cubes, bits in Morton order: what lies under one depth-14 node of the tree. One line of the cache.
 struct alignas(64) Octant {
   std::uint64_t occupied = 0;  ///< cubes that are in the map
@@ -69,6 +74,13 @@ struct Region {
   Column* column = nullptr;       ///< the one that it stands in
   std::span<Octant> octants;      ///< in Morton order
   std::span<OctantCounts> counts;
+
+  /// Whether there are cubes that were not in the map before the scan that was the last to hit it.
+  bool hasFresh() const {
+    bool fresh = false;
+    forEachBit(hit_octants, [&](int o) { fresh = fresh || octants[static_cast<std::size_t>(o)].fresh != 0; });
+    return fresh;
+  }
 
   /// Puts cubes of an octant that are not there yet into the map.
   void add(std::size_t octant, std::uint64_t new_cubes) {
@@ -164,18 +176,24 @@ class RegionMap {
   std::size_t numColumns() const { return columns_.size(); }
   std::size_t memoryUsage() const;
 
-  /// In the order in which they became known, which is much quicker than by hash.
+  /// Those that are `due`, in the order in which they became known, which is much quicker than by hash.
+  template <class Due, class F>
+  void forEachColumn(Due&& due, F&& visit) const {
+    // They lie all over the memory: ask for them, their lists and their regions some time before they are needed.
+    constexpr std::size_t kAhead = 4;
+    const std::size_t n = in_order_.size();
+    for (std::size_t i = 0; i < n; ++i) {
+      if (i + 3 * kAhead < n) __builtin_prefetch(in_order_[i + 3 * kAhead]);
+      if (i + 2 * kAhead < n && due(*in_order_[i + 2 * kAhead]))
+        __builtin_prefetch(in_order_[i + 2 * kAhead]->regions.data());
+      if (i + kAhead < n && due(*in_order_[i + kAhead]))
+        for (const Region* region : in_order_[i + kAhead]->regions) __builtin_prefetch(region);
+      if (due(*in_order_[i])) visit(*in_order_[i]);
+    }
+  }
   template <class F>
   void forEachColumn(F&& visit) const {
-    for (std::size_t i = 0; i < in_order_.size(); ++i) {
-      // Columns lie all over the memory: ask for them some time before they are needed.
-      if (i + 12 < in_order_.size()) __builtin_prefetch(in_order_[i + 12]);
-      if (i + 8 < in_order_.size() && !in_order_[i + 8]->regions.empty())
-        __builtin_prefetch(in_order_[i + 8]->regions.data());
-      if (i + 4 < in_order_.size())
-        for (const Region* region : in_order_[i + 4]->regions) __builtin_prefetch(region);
-      visit(*in_order_[i]);
-    }
+    forEachColumn([](const Column&) { return true; }, visit);
   }
 
  private:
@@ -211,11 +229,6 @@ inline OcTreeKey cubeOf(const OcTreeKey& corner, int bit) {
 /// The cubes of an octant with this z in it (0 ... 3).
 inline constexpr std::uint64_t layerOf(int z) {
   return std::uint64_t{0x0f0f0f0f} << (4 * (z & 1)) << (32 * (z >> 1 & 1));
-}
-
-template <class F>
-void forEachBit(std::uint64_t bits, F&& visit) {
-  for (; bits != 0; bits &= bits - 1) visit(std::countr_zero(bits));
 }
 
 }  // namespace rhmap

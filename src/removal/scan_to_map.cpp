@@ -82,11 +82,13 @@ class ScanToMapRemoval {
     const auto reach = static_cast<float>(config_.context.max_range / resolution_);
     const auto& sensor = scan_.view.origin();
     const auto interval = static_cast<std::uint32_t>(config_.evidence.interval);
-    map_.forEachColumn([&](Column& column) {
+    const auto isDue = [&](const Column& column) {
+      if ((column.x + column.y + look_.scan) % interval != 0) return false;
       const float dx = static_cast<float>(column.x << map_.bits()) - sensor[0];
       const float dy = static_cast<float>(column.y << map_.bits()) - sensor[1];
-      if (dx * dx + dy * dy > reach * reach) return;
-      if ((column.x + column.y + look_.scan) % interval != 0) return;
+      return dx * dx + dy * dy <= reach * reach;
+    };
+    map_.forEachColumn(isDue, [&](Column& column) {
       if (std::binary_search(candidates.begin(), candidates.end(), &column)) return;
       for (Region* region : column.regions) lookAt(*region, config_.evidence.misses);
     });

@@ -13,7 +13,6 @@ constexpr std::size_t kAhead = 32;  // points that are looked up together
 /// The first hit of this scan in a region.
 void touch(Region& region, ScanTrace& trace) {
   region.scan = trace.scan;
-  region.loose = true;
   forEachBit(region.hit_octants, [&](int o) {
     Octant& octant = region.octants[static_cast<std::size_t>(o)];
     octant.hit = octant.fresh = octant.appeared = 0;
@@ -35,6 +34,7 @@ void insert(Region& region, std::size_t o, int firm) {
     octant.firm |= std::uint64_t{of.hits >= firm} << bit;
   });
   region.add(o, octant.fresh);
+  region.loose = region.loose || octant.fresh != 0;
 }
 
 /// H{max,min} with what a scan has added to a region.
