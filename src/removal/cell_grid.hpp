@@ -33,6 +33,10 @@ class CellGrid {
   std::uint64_t& word(int x, int y) { return words_[static_cast<std::size_t>(y * side_ + x)]; }
   std::uint64_t word(int x, int y) const { return words_[static_cast<std::size_t>(y * side_ + x)]; }
 
+  /// All words, row by row.
+  std::uint64_t* data() { return words_.data(); }
+  const std::uint64_t* data() const { return words_.data(); }
+
   /// By the cell's own coordinates; false outside.
   bool at(int x, int y, int z) const {
     x -= x0_, y -= y0_, z -= z0_;

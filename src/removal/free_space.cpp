@@ -4,7 +4,6 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdlib>
-#include <vector>
 
 namespace rhmap {
 namespace {
@@ -12,7 +11,6 @@ namespace {
 constexpr int kBelow = 28;             // cells of the window below the sensor; the other 36 are above
 constexpr float kGrazing = 0.3F;       // ground rays end where they are this high above their end [m]
 constexpr float kLongestGraze = 5.0F;  // but lose no more than this [m]
-constexpr float kFar = 1e30F;
 
 std::uint64_t nameOf(int x, int y) {
   return static_cast<std::uint64_t>(static_cast<std::uint32_t>(x)) << 32 | static_cast<std::uint32_t>(y);
@@ -72,73 +70,43 @@ void FreeSpace::observe(const RegionMap& map, const ScanTrace& trace, const std:
   const int side = (2 * radius + 15) & ~7;
   for (CellGrid* grid : {&ends_, &hit_, &crossed_, &voids_}) grid->reset(x0, y0, z0, side);
 
-  std::vector<Ray> rays;
+  VoidRays rays;
   markHits(map, trace, from, rays);
-  for (const Ray& ray : rays) follow(from, ray);
+  followRays(from, rays, hit_, crossed_);
   update();
 }
 
 /// The hit cells, with one ray to each.
 void FreeSpace::markHits(const RegionMap& map, const ScanTrace& trace, const std::array<float, 3>& from,
-                         std::vector<Ray>& rays) {
+                         VoidRays& rays) {
   const auto cells_per_metre = static_cast<float>(1 / (cube_ * (1 << shift_)));
   const float reach = static_cast<float>(config_.max_range) * cells_per_metre;
   const float surface = static_cast<float>(config_.surface) * cells_per_metre;
   trace.forEachHitOctant([&](const Region& region, std::size_t o, const Octant& octant) {
     const OcTreeKey corner = map.cornerOf(region, o);
-    forEachCell(octant.hit, corner, shift_, [&](const OcTreeKey& cell, std::uint64_t hit, std::size_t) {
+    forEachCell(octant.hit, corner, shift_, [&](const OcTreeKey& cell, std::uint64_t hit) {
       ends_.set(cell[0] >> shift_, cell[1] >> shift_, cell[2] >> shift_);
       hit_.set(cell[0] >> shift_, cell[1] >> shift_, cell[2] >> shift_);
       const OcTreeKey cube = cubeOf(corner, std::countr_zero(hit));
-      Ray ray{.to = {}, .share = 1};
+      std::array<float, 3> to;
       float squared = 0;
       for (unsigned i = 0; i < 3; ++i) {
-        ray.to[i] = (static_cast<float>(cube[i]) + 0.5F) / static_cast<float>(1 << shift_);
-        squared += (ray.to[i] - from[i]) * (ray.to[i] - from[i]);
+        to[i] = (static_cast<float>(cube[i]) + 0.5F) / static_cast<float>(1 << shift_);
+        squared += (to[i] - from[i]) * (to[i] - from[i]);
       }
       const float length = std::sqrt(squared);
       if (length > reach || length < 1) return;
       const float t = 1 - surface / length;  // with noise, the surface may be here
-      hit_.set(static_cast<int>(from[0] + t * (ray.to[0] - from[0])),
-               static_cast<int>(from[1] + t * (ray.to[1] - from[1])),
-               static_cast<int>(from[2] + t * (ray.to[2] - from[2])));
+      hit_.set(static_cast<int>(from[0] + t * (to[0] - from[0])), static_cast<int>(from[1] + t * (to[1] - from[1])),
+               static_cast<int>(from[2] + t * (to[2] - from[2])));
+      float share = 1;
       if ((octant.ground & hit) != 0) {  // the last metres of a grazing ray run inside the ground's own cells
-        const float sine = std::max(std::fabs(ray.to[2] - from[2]) / length, 1e-3F);
-        ray.share = 1 - std::min(kLongestGraze, kGrazing / sine) * cells_per_metre / length;
+        const float sine = std::max(std::fabs(to[2] - from[2]) / length, 1e-3F);
+        share = 1 - std::min(kLongestGraze, kGrazing / sine) * cells_per_metre / length;
       }
-      if (ray.share > 0) rays.push_back(ray);
+      if (share > 0) rays.push(to, share);
     });
   });
-}
-
-/// Marks the cells on the way as crossed, up to the first that the scan has hit: Amanatides and Woo.
-void FreeSpace::follow(const std::array<float, 3>& from, const Ray& ray) {
-  std::array<int, 3> cell, step;
-  std::array<float, 3> next, delta;
-  for (std::size_t i = 0; i < 3; ++i) {
-    const float d = ray.to[i] - from[i];
-    cell[i] = static_cast<int>(from[i]);
-    step[i] = d < 0 ? -1 : 1;
-    delta[i] = d == 0 ? kFar : std::fabs(1 / d);
-    next[i] = d == 0 ? kFar : (static_cast<float>(cell[i] + (d < 0 ? 0 : 1)) - from[i]) / d;
-  }
-  int x = cell[0] - crossed_.x0(), y = cell[1] - crossed_.y0(), z = cell[2] - crossed_.z0();
-  const int side = crossed_.side();
-  while (x >= 0 && y >= 0 && x < side && y < side && z >= 0 && z < 64) {
-    const std::uint64_t bit = std::uint64_t{1} << z;
-    if ((hit_.word(x, y) & bit) != 0) return;
-    crossed_.word(x, y) |= bit;
-    if (next[0] <= next[1] && next[0] <= next[2]) {
-      if (next[0] > ray.share) return;
-      next[0] += delta[0], x += step[0];
-    } else if (next[1] <= next[2]) {
-      if (next[1] > ray.share) return;
-      next[1] += delta[1], y += step[1];
-    } else {
-      if (next[2] > ray.share) return;
-      next[2] += delta[2], z += step[2];
-    }
-  }
 }
 
 /// What has come to stay: void cells that are hit again and again, and that no ray crosses any more.

@@ -4,7 +4,6 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
-#include <vector>
 
 #include "cell_counters.hpp"
 #include "cell_grid.hpp"
@@ -12,21 +11,22 @@
 #include "rhmap/core/block_index.hpp"
 #include "rhmap/removal/removal_config.hpp"
 #include "scan_trace.hpp"
+#include "void_rays.hpp"
 
 namespace rhmap {
 
 /// Visits the cells of an octant (2^shift cubes an axis: all of it, or its eighths) that hold any of these cubes:
-/// lowest cube of the cell, its cubes, its number.
+/// lowest cube of the cell, its cubes.
 template <class F>
 void forEachCell(std::uint64_t cubes, const OcTreeKey& corner, int shift, F&& visit) {
   if (cubes == 0) return;
   if (shift == 2) {
-    visit(corner, cubes, std::size_t{0});
+    visit(corner, cubes);
     return;
   }
   for (std::size_t i = 0; i < 8; ++i) {
     const std::uint64_t some = cubes & std::uint64_t{0xff} << (8 * i);
-    if (some != 0) visit(cubeOf(corner, static_cast<int>(8 * i)), some, i);
+    if (some != 0) visit(cubeOf(corner, static_cast<int>(8 * i)), some);
   }
 }
 
@@ -70,16 +70,9 @@ class FreeSpace {
 
     void moveTo(int z);
   };
-  /// A ray to be followed, in cells.
-  struct Ray {
-    std::array<float, 3> to;
-    float share;  // of it that is followed
-  };
-
   template <class F>
   void forEachTile(F&& visit);
-  void markHits(const RegionMap& map, const ScanTrace& trace, const std::array<float, 3>& from, std::vector<Ray>& rays);
-  void follow(const std::array<float, 3>& from, const Ray& ray);
+  void markHits(const RegionMap& map, const ScanTrace& trace, const std::array<float, 3>& from, VoidRays& rays);
   CellGrid stayed();
   void update();
 

@@ -23,13 +23,12 @@ std::size_t MovingHits::reject(const RegionMap& map, const ScanTrace& trace, con
       });
       if (!around.isMoving(config_.look_back.share)) come = 0;
     }
-    forEachCell(octant.hit, map.cornerOf(region, o), shift,
-                [&](const OcTreeKey& corner, std::uint64_t hit, std::size_t) {
-                  const int x = corner[0] >> shift, y = corner[1] >> shift, z = corner[2] >> shift;
-                  if ((come & hit) == 0 && ((hit & ~octant.ground) == 0 || !voids.at(x, y, z))) return;
-                  moving.set(x, y, z);
-                  any = true;
-                });
+    forEachCell(octant.hit, map.cornerOf(region, o), shift, [&](const OcTreeKey& corner, std::uint64_t hit) {
+      const int x = corner[0] >> shift, y = corner[1] >> shift, z = corner[2] >> shift;
+      if ((come & hit) == 0 && ((hit & ~octant.ground) == 0 || !voids.at(x, y, z))) return;
+      moving.set(x, y, z);
+      any = true;
+    });
   });
   if (!any) return 0;
 
@@ -43,7 +42,7 @@ std::size_t MovingHits::reject(const RegionMap& map, const ScanTrace& trace, con
     const OcTreeKey corner = map.cornerOf(region, o);
     std::uint64_t out = 0;
     forEachCell(octant.hit & octant.occupied & ~octant.safe, corner, shift,
-                [&](const OcTreeKey& cell, std::uint64_t hit, std::size_t) {
+                [&](const OcTreeKey& cell, std::uint64_t hit) {
                   if (moving.at(cell[0] >> shift, cell[1] >> shift, cell[2] >> shift)) out |= hit;
                 });
     if (out == 0) return;
