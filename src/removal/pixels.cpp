@@ -34,11 +34,14 @@ HWY_INLINE VF atan2(VF y, VF x) {
 }
 
 HWY_INLINE void pixelsOfLanes(const Projection& projection, const float* HWY_RESTRICT x, const float* HWY_RESTRICT y,
-                              const float* HWY_RESTRICT z, std::int32_t* HWY_RESTRICT pixels) {
+                              const float* HWY_RESTRICT z, std::int32_t* HWY_RESTRICT pixels,
+                              float* HWY_RESTRICT ranges) {
   const F f;
   const I i;
   const auto vx = hn::LoadU(f, x), vy = hn::LoadU(f, y), vz = hn::LoadU(f, z);
-  const auto level = hn::Sqrt(hn::Add(hn::Mul(vx, vx), hn::Mul(vy, vy)));
+  const auto squared = hn::Add(hn::Mul(vx, vx), hn::Mul(vy, vy));
+  if (ranges != nullptr) hn::StoreU(hn::Sqrt(hn::Add(squared, hn::Mul(vz, vz))), f, ranges);
+  const auto level = hn::Sqrt(squared);
   const auto below = hn::Sub(hn::Set(f, projection.top), atan2(vz, level));
   const auto row = hn::Add(hn::Mul(below, hn::Set(f, projection.rowsPerRadian())), hn::Set(f, 0.5F));
   const auto turn = hn::Add(hn::Mul(atan2(vy, vx), hn::Set(f, 0.5F / kPi)), hn::Set(f, 0.5F));
@@ -51,19 +54,21 @@ HWY_INLINE void pixelsOfLanes(const Projection& projection, const float* HWY_RES
 }
 
 void PixelsOf(const Projection& projection, const float* x, const float* y, const float* z, std::size_t n,
-              std::int32_t* pixels) {
+              std::int32_t* pixels, float* ranges) {
   const std::size_t lanes = hn::Lanes(F());
   std::size_t k = 0;
-  for (; k + lanes <= n; k += lanes) pixelsOfLanes(projection, x + k, y + k, z + k, pixels + k);
+  for (; k + lanes <= n; k += lanes)
+    pixelsOfLanes(projection, x + k, y + k, z + k, pixels + k, ranges == nullptr ? nullptr : ranges + k);
   if (k == n) return;
   constexpr std::size_t kMostLanes = HWY_MAX_BYTES / sizeof(float);
-  float rest[3][kMostLanes] = {};
+  float rest[3][kMostLanes] = {}, rest_ranges[kMostLanes];
   std::int32_t rest_pixels[kMostLanes];
   std::copy(x + k, x + n, rest[0]);
   std::copy(y + k, y + n, rest[1]);
   std::copy(z + k, z + n, rest[2]);
-  pixelsOfLanes(projection, rest[0], rest[1], rest[2], rest_pixels);
+  pixelsOfLanes(projection, rest[0], rest[1], rest[2], rest_pixels, rest_ranges);
   std::copy(rest_pixels, rest_pixels + (n - k), pixels + k);
+  if (ranges != nullptr) std::copy(rest_ranges, rest_ranges + (n - k), ranges + k);
 }
 
 }  // namespace rhmap::HWY_NAMESPACE
@@ -75,8 +80,8 @@ namespace rhmap {
 HWY_EXPORT(PixelsOf);
 
 void pixelsOf(const Projection& projection, const float* x, const float* y, const float* z, std::size_t n,
-              std::int32_t* pixels) {
-  HWY_DYNAMIC_DISPATCH(PixelsOf)(projection, x, y, z, n, pixels);
+              std::int32_t* pixels, float* ranges) {
+  HWY_DYNAMIC_DISPATCH(PixelsOf)(projection, x, y, z, n, pixels, ranges);
 }
 
 }  // namespace rhmap

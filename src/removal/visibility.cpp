@@ -107,13 +107,24 @@ void Visibility::summarise(const Farthest& own) {
   farthest_.push_back(std::move(around));
 }
 
-Look Visibility::at(const std::array<float, 3>& p) const {
-  std::int32_t pixel = -1;
-  pixelsOf(projection_, &p[0], &p[1], &p[2], 1, &pixel);
-  return at(p, std::sqrt(p[0] * p[0] + p[1] * p[1] + p[2] * p[2]), pixel);
+/// Most cubes are behind something, or are what is seen.
+inline Look Visibility::at(const std::array<float, 3>& p, float range, std::int32_t pixel) const {
+  if (pixel < 0) return Look::kUnknown;
+  const float centre = ranges_[static_cast<std::size_t>(pixel)];
+  if (centre < range - before_) return Look::kUnknown;
+  if (centre <= range + behind_) return Look::kFilled;
+  return around(p, range, pixel);
 }
 
-void Visibility::look(const SensorView& view, std::span<const CubesAt> places, std::span<CubeLooks> looks) const {
+Look Visibility::at(const std::array<float, 3>& p) const {
+  std::int32_t pixel = -1;
+  float range = 0;
+  pixelsOf(projection_, &p[0], &p[1], &p[2], 1, &pixel, &range);
+  return at(p, range, pixel);
+}
+
+void Visibility::look(const SensorView& from, std::span<const CubesAt> places, std::span<CubeLooks> looks) const {
+  const SensorView view = from;  // which no write below can change, so that the loop over it becomes vector code
   constexpr std::size_t kBatch = 512;  // cubes, in a few loops that are vector code
   std::array<float, kBatch> x, y, z, range;
   std::array<std::int32_t, kBatch> pixels;
@@ -130,9 +141,8 @@ void Visibility::look(const SensorView& view, std::span<const CubesAt> places, s
     for (std::size_t i = 0; i < n; ++i) {
       const auto [px, py, pz] = view(x[i], y[i], z[i]);
       x[i] = px, y[i] = py, z[i] = pz;
-      range[i] = std::sqrt(px * px + py * py + pz * pz);
     }
-    pixelsOf(projection_, x.data(), y.data(), z.data(), n, pixels.data());
+    pixelsOf(projection_, x.data(), y.data(), z.data(), n, pixels.data(), range.data());
     for (std::size_t place = first, i = 0; place < last; ++place) {
       CubeLooks& of = looks[place] = {};
       for (std::uint64_t rest = places[place].cubes; rest != 0; rest &= rest - 1, ++i) {
@@ -161,33 +171,46 @@ bool Visibility::hides(const std::array<float, 3>& p, float radius) const {
   return false;
 }
 
-Look Visibility::at(const std::array<float, 3>& p, float range, std::int32_t pixel) const {
-  if (pixel < 0) return Look::kUnknown;
+Look Visibility::around(const std::array<float, 3>& p, float range, std::int32_t pixel) const {
   const auto centre = static_cast<std::size_t>(pixel);
   const float behind = range + behind_, before = range - before_;
-  if (ranges_[centre] < before) return Look::kUnknown;  // most are behind something
-  if (ranges_[centre] <= behind) return Look::kFilled;  // or what is seen
   const int row = pixel / projection_.columns, column = pixel % projection_.columns;
   const auto step = static_cast<std::size_t>(range * kStepsPerMetre);
   const Window window = step < windows_.size() ? windows_[step] : windows_.back();
-  const float surface = std::max(surface_, surface_share_ * range);
-  const bool empty = ranges_[centre] == RangeImage::kEmpty;
-  bool seen = false, clear = true;
-  for (int i = std::max(0, row - window.up); i <= std::min(projection_.rows - 1, row + window.up); ++i) {
-    for (int c = column - window.beside; c <= column + window.beside; ++c) {
-      const int j = c < 0 ? c + projection_.columns : c >= projection_.columns ? c - projection_.columns : c;
-      const auto at = static_cast<std::size_t>(i * projection_.columns + j);
-      const float other = ranges_[at];
-      if (other > behind) {
-        seen = seen || other < RangeImage::kEmpty;
-        continue;
-      }
-      if (other >= before) return Look::kFilled;
-      // Something nearer beside the cube: a surface may run from there to what is seen at the cube's own pixel.
-      clear = clear && !empty && squaredDistanceToSegment(p, points_[at], points_[centre]) >= surface * surface;
+
+  // Runs of pixels in a row: visit(first, last), in two where the image's two ends meet. Until it returns false.
+  const auto forEachRun = [&](auto&& visit) {
+    for (int i = std::max(0, row - window.up); i <= std::min(projection_.rows - 1, row + window.up); ++i) {
+      const int left = column - window.beside, right = column + window.beside + 1;
+      const int start = i * projection_.columns, end = start + projection_.columns;
+      if (!visit(std::max(start + left, start), std::min(start + right, end))) return;
+      if (left < 0 && !visit(end + left, end)) return;
+      if (right > projection_.columns && !visit(start, start + right - projection_.columns)) return;
     }
-  }
-  return seen && clear ? Look::kSeenThrough : Look::kUnknown;
+  };
+  int filled = 0, nearer = 0, seen = 0;
+  forEachRun([&](int first, int last) {
+    for (int i = first; i < last; ++i) {  // without branches, so that it becomes vector code
+      const float other = ranges_[static_cast<std::size_t>(i)];
+      filled |= (other >= before) & (other <= behind);
+      nearer |= other < before;
+      seen |= (other > behind) & (other < RangeImage::kEmpty);
+    }
+    return filled == 0;
+  });
+  if (filled != 0) return Look::kFilled;
+  if (seen == 0) return Look::kUnknown;
+  if (nearer == 0) return Look::kSeenThrough;
+
+  // Something nearer beside the cube: a surface may run from there to what is seen at the cube's own pixel.
+  bool clear = ranges_[centre] < RangeImage::kEmpty;
+  const float surface = std::max(surface_, surface_share_ * range);
+  forEachRun([&](int first, int last) {
+    for (auto i = static_cast<std::size_t>(first); clear && i < static_cast<std::size_t>(last); ++i)
+      clear = ranges_[i] >= before || squaredDistanceToSegment(p, points_[i], points_[centre]) >= surface * surface;
+    return clear;
+  });
+  return clear ? Look::kSeenThrough : Look::kUnknown;
 }
 
 }  // namespace rhmap

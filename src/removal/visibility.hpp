@@ -67,6 +67,7 @@ class Visibility {
     std::int8_t up, beside;
   };
   Look at(const std::array<float, 3>& p, float range, std::int32_t pixel) const;
+  Look around(const std::array<float, 3>& p, float range, std::int32_t pixel) const;
 
   static constexpr float kStepsPerMetre = 4;
   static constexpr int kSmallestBlock = 4;  // pixels of an edge
