@@ -148,9 +148,9 @@ void RhMap::Removal::lookAgain(const ScanContext& keyframe, bool protect, ScanRe
 /// The hit cubes that are in the map, into the tree: as OctoMap's updateNode for each. Returns how many there are.
 std::size_t RhMap::Removal::write(const ScanTrace& trace, const octomap::Pointcloud& points,
                                   const octomap::pose6d& pose) {
-  ScanMasks cells;
+  cells_.clear();
   const bool has_free = config_.carve || config_.removed == RemovedCubes::kFree;
-  if (config_.carve) markFree(points, pose, cells);
+  if (config_.carve) markFree(points, pose);
   std::size_t inserted = 0;
   const std::size_t octants = std::min<std::size_t>(8, regions_.octants());
   trace.forEachRegion([&](const Region& region) {
@@ -167,14 +167,14 @@ std::size_t RhMap::Removal::write(const ScanTrace& trace, const octomap::Pointcl
         cubes += static_cast<std::size_t>(std::popcount(hit));
         if (has_free) forgetFree(regions_.cornerOf(region, number), hit & octant.fresh);
       });
-      if (cubes > 0) cells.mark(hits);
+      if (cubes > 0) cells_.mark(hits);
       inserted += cubes;
     }
   });
   if (tree_.use_change_detection) {
-    cells.forEachCell([this](const OcTreeKey& cell, bool occupied) { tree_.updateNode(cell, occupied); });
+    cells_.forEachCell([this](const OcTreeKey& cell, bool occupied) { tree_.updateNode(cell, occupied); });
   } else {
-    ScanApplier<OcTreeNode>(*tree_.store_, tree_.sensorModel(), false).apply(cells, tree_.getNumThreads());
+    ScanApplier<OcTreeNode>(*tree_.store_, tree_.sensorModel(), false).apply(cells_, tree_.getNumThreads());
   }
   return inserted;
 }
@@ -188,7 +188,7 @@ void RhMap::Removal::forgetFree(const OcTreeKey& corner, std::uint64_t cubes) {
 }
 
 /// What OctoMap's rays cross, except cubes that the map holds for occupied, and ends that were kept out of it.
-void RhMap::Removal::markFree(const octomap::Pointcloud& points, const octomap::pose6d& pose, ScanMasks& cells) const {
+void RhMap::Removal::markFree(const octomap::Pointcloud& points, const octomap::pose6d& pose) {
   octomap::Pointcloud world(points);
   world.transform(pose);
   ScanCounts counts;
@@ -205,7 +205,7 @@ void RhMap::Removal::markFree(const octomap::Pointcloud& points, const octomap::
       free.free[t] &= ~marked.hit[t];
       if (region != nullptr) free.free[t] &= ~region->octants[regions_.octantOf(corner)].occupied;
     }
-    cells.mark(free);
+    cells_.mark(free);
   });
 }
 

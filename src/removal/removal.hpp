@@ -36,7 +36,7 @@ class RhMap::Removal {
   void lookAgain(const ScanContext& keyframe, bool protect, ScanReport& report);
   std::size_t write(const ScanTrace& trace, const octomap::Pointcloud& points, const octomap::pose6d& pose);
   void forgetFree(const OcTreeKey& corner, std::uint64_t cubes);
-  void markFree(const octomap::Pointcloud& points, const octomap::pose6d& pose, ScanMasks& cells) const;
+  void markFree(const octomap::Pointcloud& points, const octomap::pose6d& pose);
   void refreshAbove(const OcTreeKey& cube);
   void erase(const RemovalResult& result, ScanReport& report);
   void forgetFar(const OcTreeKey& sensor);
@@ -51,7 +51,9 @@ class RhMap::Removal {
   Keyframes keyframes_;
   std::optional<Projection> projection_;
   std::uint32_t scan_ = 0;
-  ScanPoints points_;  // of the scan at hand
+  // Of the scan at hand; kept for their memory.
+  ScanPoints points_;
+  ScanMasks cells_;
 };
 
 }  // namespace rhmap

@@ -124,7 +124,7 @@ Look Visibility::at(const std::array<float, 3>& p) const {
 }
 
 void Visibility::look(const SensorView& from, std::span<const CubesAt> places, std::span<CubeLooks> looks) const {
-  const SensorView view = from;  // which no write below can change, so that the loop over it becomes vector code
+  const SensorView view = from;        // which no write below can change, so that the loop over it becomes vector code
   constexpr std::size_t kBatch = 512;  // cubes, in a few loops that are vector code
   std::array<float, kBatch> x, y, z, range;
   std::array<std::int32_t, kBatch> pixels;

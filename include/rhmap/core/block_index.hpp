@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <algorithm>
 #include <cstddef>
 #include <cstdint>
 #include <utility>
@@ -55,6 +56,12 @@ class BlockIndex {
   void clear() {
     entries_ = decltype(entries_)();
     shift_ = 64;
+    size_ = 0;
+  }
+
+  /// Forgets everything and keeps the memory.
+  void reset() {
+    std::fill(entries_.begin(), entries_.end(), Entry{});
     size_ = 0;
   }
 

@@ -79,6 +79,14 @@ class ScanMasks {
   ScanMasks(ScanMasks&&) = default;
   ScanMasks& operator=(ScanMasks&&) = default;
 
+  /// Forgets the marks; their memory is kept for those of another scan.
+  void clear() {
+    if (table_ != nullptr) forEachRegion([this](const RegionMasks& r) { inTable(r.region) = nullptr; });
+    index_.reset();
+    chunks_in_use_ = 0;
+    used_ = 0;
+  }
+
   /// Marks the cells `bits` of an octant (a cell word >> 6) as crossed.
   void markFree(std::uint64_t octant, std::uint64_t bits) { at(octant >> 3).free[octant & 7] |= bits; }
   void markFree(const OcTreeKey& key) {
@@ -105,8 +113,8 @@ class ScanMasks {
   /// Visits the regions in the order in which they were first marked.
   template <class F>
   void forEachRegion(F&& visit) const {
-    for (std::size_t c = 0; c < chunks_.size(); ++c) {
-      const std::size_t n = c + 1 < chunks_.size() ? sizeOf(c) : used_;
+    for (std::size_t c = 0; c < chunks_in_use_; ++c) {
+      const std::size_t n = c + 1 < chunks_in_use_ ? sizeOf(c) : used_;
       for (std::size_t i = 0; i < n; ++i) visit(static_cast<const RegionMasks&>(chunks_[c][i]));
     }
   }
@@ -139,19 +147,26 @@ class ScanMasks {
       if (known == nullptr) index_.insert(region, known = &create(region));
       return *known;
     }
-    const std::uint64_t offset = region - first_;  // no axis borrows from the next: none is below the box
-    RegionMasks*& known = table_[(offset & 0x1fff) | (offset >> 13 & 0x1fff) << y_shift_ | offset >> 26 << z_shift_];
+    RegionMasks*& known = inTable(region);
     if (known == nullptr) known = &create(region);
     return *known;
   }
 
+  RegionMasks*& inTable(std::uint64_t region) {
+    const std::uint64_t offset = region - first_;  // no axis borrows from the next: none is below the box
+    return table_[(offset & 0x1fff) | (offset >> 13 & 0x1fff) << y_shift_ | offset >> 26 << z_shift_];
+  }
+
   RegionMasks& create(std::uint64_t region) {
-    if (chunks_.empty() || used_ == sizeOf(chunks_.size() - 1)) {
-      chunks_.reserve(chunks_.size() + 1);
-      chunks_.emplace_back(static_cast<RegionMasks*>(allocateLargePiece(!chunks_.empty())));
+    if (chunks_in_use_ == 0 || used_ == sizeOf(chunks_in_use_ - 1)) {
+      if (chunks_in_use_ == chunks_.size()) {
+        chunks_.reserve(chunks_.size() + 1);
+        chunks_.emplace_back(static_cast<RegionMasks*>(allocateLargePiece(!chunks_.empty())));
+      }
+      ++chunks_in_use_;
       used_ = 0;
     }
-    RegionMasks& fresh = chunks_.back()[used_++];
+    RegionMasks& fresh = chunks_[chunks_in_use_ - 1][used_++];
     fresh = RegionMasks{{}, {}, region};
     return fresh;
   }
@@ -169,7 +184,8 @@ class ScanMasks {
     void operator()(RegionMasks* p) const { freeLargePiece(p); }
   };
   std::vector<std::unique_ptr<RegionMasks[], FreePiece>> chunks_;
-  std::size_t used_ = 0;
+  std::size_t chunks_in_use_ = 0;
+  std::size_t used_ = 0;  // of the last of them
 };
 
 }  // namespace rhmap
