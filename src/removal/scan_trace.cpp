@@ -8,7 +8,7 @@
 namespace rhmap {
 namespace {
 
-constexpr std::size_t kAhead = 32;  // points that are looked up together
+constexpr std::size_t kAhead = 64;  // points that are looked up together
 
 /// The first hit of this scan in a region.
 void touch(Region& region, ScanTrace& trace) {

@@ -28,7 +28,7 @@ TEST(SensorView, IsTheInverseOfThePose) {
     const SensorView view(keys, pose);
     const OcTreeKey cube(static_cast<key_type>(kTreeMaxVal + 100 + i), static_cast<key_type>(kTreeMaxVal - i),
                          kTreeMaxVal);
-    const auto seen = view(cube);
+    const auto seen = view(cube[0], cube[1], cube[2]);
     const octomap::point3d expected = pose.inv().transform(keys.keyToCoord(cube));
     EXPECT_NEAR(seen[0], expected.x(), 5e-3);
     EXPECT_NEAR(seen[1], expected.y(), 5e-3);
@@ -72,6 +72,39 @@ TEST(Visibility, DoesNotSeeThroughTheEdgeOfAPost) {
   EXPECT_EQ(visibility.at({6, 1, 0}), Look::kSeenThrough);
   EXPECT_EQ(visibility.at({6, -1, 0}), Look::kSeenThrough);
   EXPECT_EQ(visibility.at({4, 0, 0}), Look::kSeenThrough);  // before it
+}
+
+TEST(Visibility, SeesCubesAsItSeesTheirCentres) {
+  std::mt19937 random(8);
+  std::uniform_int_distribution<int> near(-250, 250), height(-25, 15);
+  std::uniform_real_distribution<float> unit(0, 1);
+  octomap::Pointcloud cloud = test::wallAndGround(15);
+  for (octomap::point3d& p : cloud)
+    if (unit(random) < 0.1F) p *= 0.3F + 0.7F * unit(random);
+  const Visibility visibility = visibilityOf(cloud);
+  const SensorView view(KeySpace(kCube), octomap::pose6d(1, 2, 0.3, 0, 0, 0.5));
+  std::vector<CubesAt> places;
+  for (int i = 0; i < 3000; ++i) {
+    const auto at = [&](auto& along) { return static_cast<key_type>((kTreeMaxVal + along(random)) & ~3); };
+    places.push_back({{at(near), at(near), at(height)}, random() | std::uint64_t{random() & random()} << 32});
+  }
+  std::vector<CubeLooks> looks(places.size());
+  visibility.look(view, places, looks);
+  std::size_t filled = 0, through = 0;
+  for (std::size_t i = 0; i < places.size(); ++i) {
+    CubeLooks expected;
+    forEachBit(places[i].cubes, [&](int bit) {
+      const OcTreeKey cube = cubeOf(places[i].corner, bit);
+      const Look look = visibility.at(view(cube[0], cube[1], cube[2]));
+      if (look == Look::kFilled) expected.filled |= maskOf(bit);
+      if (look == Look::kSeenThrough) expected.seen_through |= maskOf(bit);
+    });
+    ASSERT_EQ(looks[i].filled, expected.filled) << i;
+    ASSERT_EQ(looks[i].seen_through, expected.seen_through) << i;
+    filled += expected.filled != 0, through += expected.seen_through != 0;
+  }
+  EXPECT_GT(filled, 30U);
+  EXPECT_GT(through, 300U);
 }
 
 TEST(Visibility, HidesNothingThatIsSeenThrough) {
