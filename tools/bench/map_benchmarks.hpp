@@ -1,8 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <bit>
+#include <cstddef>
 #include <cstdint>
 #include <functional>
 #include <memory>
@@ -17,11 +19,25 @@
 /// What is done with a map; over any tree with OctoMap's names.
 namespace rhmap::bench::maps {
 
+/// What a planner keeps beside a map that grows, to look at in peace: OctoMap has nothing but copies.
+template <class Tree>
+class Follower {
+ public:
+  explicit Follower(const Tree& map) : map_(map) {}
+  void update() { copy_ = std::make_unique<Tree>(map_); }
+  std::size_t size() const { return copy_->size(); }
+
+ private:
+  const Tree& map_;
+  std::unique_ptr<Tree> copy_;
+};
+
 /// A map and what the benchmarks put aside in the untimed parts.
 template <class Tree>
 struct State {
   std::unique_ptr<Tree> map;
-  std::unique_ptr<Tree> copy;  ///< of the map as it was before the first benchmark that changes it
+  std::unique_ptr<Tree> copy;                ///< of the map as it was before the first benchmark that changes it
+  std::unique_ptr<Follower<Tree>> follower;  ///< of the map
 };
 
 /// An answer as cheap as a sum: it must not be what is measured.
@@ -299,6 +315,21 @@ Sample deleteCells(State<Tree>& s, const MapWorkload& work, std::size_t round) {
 }
 
 template <class Tree>
+Sample follow(State<Tree>& s, const MapWorkload& work, std::size_t round) {
+  constexpr std::size_t kCells = 1000;
+  if (!s.follower) {
+    s.follower = std::make_unique<Follower<Tree>>(*s.map);
+    s.follower->update();
+  }
+  for (std::size_t i = 0; i < std::min(kCells, work.known_cells[round].size()); ++i)
+    s.map->updateNode(work.known_cells[round][i].key, work.known_cells[round][i].occupied);
+  const double seconds = timed([&] { s.follower->update(); });
+  const std::size_t size = s.follower->size();
+  if (round + 1 == work.known_cells.size()) s.follower.reset();  // what comes next need not be followed
+  return {seconds, 1, size};
+}
+
+template <class Tree>
 struct Benchmark {
   Title title;
   Sample (*run)(State<Tree>& state, const MapWorkload& work, std::size_t round);
@@ -328,6 +359,7 @@ inline constexpr std::array kBenchmarks{
     Benchmark<Tree>{{"updateInnerOccupancy", "map"}, updateInner<Tree>},
     Benchmark<Tree>{{"expand", "map"}, expandAll<Tree>},
     Benchmark<Tree>{{"prune, after expand", "map"}, pruneAll<Tree>},
+    Benchmark<Tree>{{"a copy to plan on, 1000 cells later: new, or mirror.sync()", "map"}, follow<Tree>},
     Benchmark<Tree>{{"updateNode, random leaves", "call"}, updateKnown<Tree>},
     Benchmark<Tree>{{"setNodeValue, random leaves", "call"}, setValues<Tree>},
     Benchmark<Tree>{{"updateNode, new cells, a solid box", "call"}, updateBox<Tree>},

@@ -1,9 +1,23 @@
 // SPDX-License-Identifier: BSD-3-Clause
+#include "rhmap/baseline/octomap_mirror.hpp"
 #include "rhmap/core/key_set.hpp"
 #include "rhmap/octree/octree.hpp"
 #include "tree_library.hpp"
 
 namespace rhmap::bench {
+
+/// A map of OctoMap's that is brought up to date.
+template <>
+class maps::Follower<OcTree> {
+ public:
+  explicit Follower(const OcTree& map) : mirror_(map) {}
+  void update() { mirror_.sync(); }
+  std::size_t size() const { return mirror_.size(); }
+
+ private:
+  OctomapMirror mirror_;
+};
+
 namespace {
 
 constexpr auto kMapTitles = [] {
