@@ -20,7 +20,7 @@ std::size_t MovingHits::reject(const RegionMap& map, const ScanTrace& trace, con
       std::uint64_t come = octant.appeared;
       if (come != 0) {
         const Neighbourhood around = lookAround(
-            map, map.cornerOf(*region, o),
+            map, map.cornerOf(*region, o), kFarthestAround,
             [&](const Region& r, const Octant& beside) { return r.scan == trace.scan ? beside.appeared : 0; });
         if (!around.isMoving(config_.look_back.share)) come = 0;
       }

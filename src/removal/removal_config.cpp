@@ -35,6 +35,7 @@ RemovalConfig paperProfile() {
   config.protect_hits = false;
   config.shrink_heights = false;
   config.ground.across_regions = false;
+  config.ground.depth = 0;
   config.ground.max_step = 0;
   config.ground.thin = -1;
   config.context.max_range = 50;
@@ -79,6 +80,7 @@ void validate(const RemovalConfig& c) {
   between(3, kAny, "ground.min_cubes", c.ground.min_cubes, "3 or more");
   atLeast1("ground.iterations", c.ground.iterations);
   atLeast0("ground.min_growth", c.ground.min_growth);
+  atLeast0("ground.depth", c.ground.depth);
   atLeast0("ground.max_step", c.ground.max_step);
   require(!std::isnan(c.ground.thin), "ground.thin", c.ground.thin, "a number");
   between(0, 512, "image.rows", c.image.rows, "between 0 and 512");
@@ -96,13 +98,18 @@ void validate(const RemovalConfig& c) {
   atLeast0("visibility.before", c.visibility.before);
   atLeast0("visibility.surface", c.visibility.surface);
   atLeast0("visibility.surface_share", c.visibility.surface_share);
+  atLeast0("visibility.edge_share", c.visibility.edge_share);
+  length("visibility.ball", c.visibility.ball);
   between(0, 16, "visibility.window", c.visibility.window, "between 0 and 16");
   atLeast1("evidence.interval", c.evidence.interval);
   between(1, 255, "evidence.misses", c.evidence.misses, "between 1 and 255");
   between(1, 255, "evidence.sure_misses", c.evidence.sure_misses, "between 1 and 255");
   between(1, 255, "evidence.firm", c.evidence.firm, "between 1 and 255");
   share("evidence.share", c.evidence.share);
+  atLeast0("evidence.sure_ratio", c.evidence.sure_ratio);
+  length("evidence.sure_reach", c.evidence.sure_reach);
   share("evidence.sure_share", c.evidence.sure_share);
+  atLeast0("evidence.rest_share", c.evidence.rest_share);
   length("free_space.cell", c.free_space.cell);
   between(1e-6, 200, "free_space.max_range", c.free_space.max_range, "above 0 and up to 200 m");
   atLeast0("free_space.surface", c.free_space.surface);

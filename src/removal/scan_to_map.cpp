@@ -15,7 +15,8 @@ struct Doubt {
   Region* region;
   std::size_t octant;
   std::uint64_t cubes;
-  int misses;  // that are needed
+  std::uint64_t rest;  // cubes of which the scan cannot tell
+  int misses;          // that are needed
 };
 
 /// One scan's look at the map: first at all that may have gone, then, with all doubts known, at what stands around.
@@ -23,7 +24,13 @@ class ScanToMapRemoval {
  public:
   ScanToMapRemoval(const RegionMap& map, const ScanContext& scan, const RemovalConfig& config, double resolution,
                    const LookConfig& look, RemovalResult& result)
-      : map_(map), scan_(scan), config_(config), resolution_(resolution), look_(look), result_(result) {}
+      : map_(map),
+        scan_(scan),
+        config_(config),
+        resolution_(resolution),
+        sure_reach_(cubesAround(config.evidence.sure_reach, resolution)),
+        look_(look),
+        result_(result) {}
 
   void run() {
     std::vector<const Column*> candidates;
@@ -102,10 +109,10 @@ class ScanToMapRemoval {
       // With nothing but the ratio to go by, all that is near the ground has to stay.
       if (scan_.visibility == nullptr) cubes &= ~octant.ground;
       if (look_.protect && region.scan == look_.scan) cubes &= ~octant.hit;
-      std::uint64_t through = 0;
+      std::uint64_t through = 0, filled = 0;
       if (cubes != 0 && (octant.doubted != 0 || !isHidden(map_.cornerOf(region, o), 4))) {
-        through = lookThrough(octant, map_.cornerOf(region, o), cubes);
-        if (through != 0) doubts_.push_back({&column, &region, o, through, misses});
+        through = lookThrough(octant, map_.cornerOf(region, o), cubes, filled);
+        if (through != 0) doubts_.push_back({&column, &region, o, through, cubes & ~through & ~filled, misses});
       }
       if (is_candidate) result_.is_protected += static_cast<std::size_t>(std::popcount(octant.occupied & ~through));
       doubtful = doubtful || octant.doubted != 0;
@@ -124,9 +131,9 @@ class ScanToMapRemoval {
     return scan_.visibility->hides(centre, 0.8661F * static_cast<float>(size * resolution_));
   }
 
-  /// The cubes that the scan sees through; notes it, and where it sees something at a cube's place, takes back the
-  /// doubts.
-  std::uint64_t lookThrough(Octant& octant, const OcTreeKey& corner, std::uint64_t cubes) const {
+  /// The cubes that the scan sees through; notes it, and where it sees something at a cube's place (`filled`), takes
+  /// back the doubts.
+  std::uint64_t lookThrough(Octant& octant, const OcTreeKey& corner, std::uint64_t cubes, std::uint64_t& filled) const {
     std::uint64_t through = 0;
     forEachBit(cubes, [&](int bit) {
       const Look look =
@@ -136,6 +143,7 @@ class ScanToMapRemoval {
         countUp(misses);
         through |= maskOf(bit);
       } else if (look == Look::kFilled) {
+        filled |= maskOf(bit);
         misses = 0;
         octant.doubted &= ~maskOf(bit);
       }
@@ -156,13 +164,14 @@ class ScanToMapRemoval {
         const auto i = static_cast<std::size_t>(bit);
         if (octant.misses[i] < fewest || (look_.revert_hits > 0 && octant.hits[i] >= look_.revert_hits)) return;
         if (octant.misses[i] >= doubt.misses) due |= maskOf(bit);
-        if (octant.misses[i] >= evidence.sure_misses) sure |= maskOf(bit);
+        if (octant.misses[i] >= std::max<double>(evidence.sure_misses, evidence.sure_ratio * octant.hits[i]))
+          sure |= maskOf(bit);
       });
       if ((due | sure) == 0) continue;
-      const Neighbourhood around = lookAround(map_, map_.cornerOf(*doubt.region, doubt.octant),
-                                              [](const Region&, const Octant& o) { return o.doubted; });
+      const Neighbourhood around = doubtedAround(doubt, kFarthestAround);
       if (around.isMoving(evidence.share)) gone[d] |= due;
-      if (around.isMoving(evidence.sure_share)) gone[d] |= sure;
+      if ((sure & ~gone[d]) != 0 && doubtedAround(doubt, sure_reach_).isMoving(evidence.sure_share)) gone[d] |= sure;
+      if (around.firm == 0) gone[d] |= restOf(doubt, gone[d]);
     }
     for (std::size_t d = 0; d < doubts_.size(); ++d) {
       const Doubt& doubt = doubts_[d];
@@ -175,10 +184,25 @@ class ScanToMapRemoval {
     }
   }
 
+  Neighbourhood doubtedAround(const Doubt& doubt, int reach) const {
+    return lookAround(map_, map_.cornerOf(*doubt.region, doubt.octant), reach,
+                      [](const Region&, const Octant& o) { return o.doubted; });
+  }
+
+  /// What goes with the cubes of its octant that go: the scan may never tell of it, where there is nothing behind or
+  /// something before it.
+  std::uint64_t restOf(const Doubt& doubt, std::uint64_t gone) const {
+    if (scan_.visibility == nullptr) return 0;
+    const std::uint64_t rest = doubt.rest & ~doubt.region->octants[doubt.octant].firm;
+    const int n = std::popcount(gone);
+    return n >= config_.evidence.rest_share * (n + std::popcount(rest)) ? rest : 0;
+  }
+
   const RegionMap& map_;
   const ScanContext& scan_;
   const RemovalConfig& config_;
   double resolution_;
+  int sure_reach_;  // in cubes
   const LookConfig& look_;
   RemovalResult& result_;
   std::vector<Doubt> doubts_;

@@ -54,7 +54,9 @@ class Visibility {
     const int column = projection_.columnOf(p[0], p[1]);
     const float range = std::sqrt(p[0] * p[0] + p[1] * p[1] + p[2] * p[2]);
     const int i = static_cast<int>(row);
-    if (ranges_[static_cast<std::size_t>(i * projection_.columns + column)] < range - before_) return Look::kUnknown;
+    // Above the first row's beam nothing would show a surface that runs on towards the sensor: a ceiling.
+    const float least = row < kFirstBeam ? range * edge_ : range - before_;
+    if (ranges_[static_cast<std::size_t>(i * projection_.columns + column)] < least) return Look::kUnknown;
     return around(p, range, i, column);
   }
 
@@ -68,6 +70,7 @@ class Visibility {
   };
   Look around(const std::array<float, 3>& p, float range, int row, int column) const;
 
+  static constexpr float kFirstBeam = 0.75F;  // rows from the image's upper edge; a beam's elevation wavers
   static constexpr float kStepsPerMetre = 4;
   static constexpr int kSmallestBlock = 4;  // pixels of an edge
   /// The farthest range in blocks of pixels and those around them; 0 where all are empty.
@@ -82,7 +85,7 @@ class Visibility {
   std::vector<std::array<float, 3>> points_;  // sensor's frame [m]
   std::vector<Farthest> farthest_;            // blocks of 4, 8, 16 ... pixels
   std::vector<Window> windows_;               // for cubes so many steps away; beyond: the last
-  float behind_, before_, surface_, surface_share_;
+  float behind_, before_, surface_, surface_share_, edge_;
 };
 
 }  // namespace rhmap

@@ -89,6 +89,7 @@ TEST(MovingHits, AreAllOfABoxThatComesIntoTheVoidWithItsFeet) {
 TEST(MovingHits, AreFoundByLookingBack) {
   RemovalConfig config;
   config.free_space.tau_f = 7;
+  config.look_back.stride = 3;
   Place place(config);
   for (int i = 0; i < 6; ++i) place.scan(false);  // two scans remembered, and no void yet
   EXPECT_GT(place.scan(true), 50U);
