@@ -62,6 +62,7 @@ void FreeSpace::Tile::moveTo(int z) {
   if (z == z0) return;
   for (CellColumn& column : columns) {
     column.is_void = shifted(column.is_void, z - z0);
+    column.is_open = shifted(column.is_open, z - z0);
     for (std::uint64_t& plane : column.crossed) plane = shifted(plane, z - z0);
   }
   z0 = z;
@@ -88,7 +89,7 @@ void FreeSpace::observe(const RegionMap& map, const ScanTrace& trace, const std:
   const int radius = static_cast<int>(std::ceil(config_.max_range / (cube_ * (1 << shift_)))) + 2;
   const int x0 = (cell[0] - radius) & ~7, y0 = (cell[1] - radius) & ~7, z0 = (cell[2] - kBelow) & ~7;
   const int side = (2 * radius + 15) & ~7;
-  for (CellGrid* grid : {&hit_, &crossed_, &voids_}) grid->reset(x0, y0, z0, side);
+  for (CellGrid* grid : {&hit_, &crossed_, &voids_, &open_}) grid->reset(x0, y0, z0, side);
 
   std::vector<Ray> rays;
   markHits(map, trace, from, rays);
@@ -178,10 +179,14 @@ void FreeSpace::revert(const RegionMap& map, const ScanTrace& trace) {
                     std::uint8_t& in_a_row = octant.hits_in_a_row[number];
                     if (atLeast(column.crossed, 1) >> z & 1) in_a_row = 0;
                     countUp(in_a_row);
-                    if (in_a_row < config_.tau_r || (column.is_void >> z & 1) == 0) return;
+                    if (in_a_row < config_.tau_r || ((column.is_void | column.is_open) >> z & 1) == 0) return;
                     const std::uint64_t around = z > 0 ? std::uint64_t{7} << (z - 1) : std::uint64_t{3};
                     for (int cy = y - 1; cy <= y + 1; ++cy)
-                      for (int cx = x - 1; cx <= x + 1; ++cx) tileAt(cx >> 3, cy >> 3).at(cx, cy).is_void &= ~around;
+                      for (int cx = x - 1; cx <= x + 1; ++cx) {
+                        CellColumn& beside = tileAt(cx >> 3, cy >> 3).at(cx, cy);
+                        beside.is_void &= ~around;
+                        beside.is_open &= ~around;
+                      }
                   });
     });
   }
@@ -189,7 +194,7 @@ void FreeSpace::revert(const RegionMap& map, const ScanTrace& trace) {
 
 /// Takes the scan's cells into the tiles' counters, and finds the void.
 void FreeSpace::update() {
-  const CellGrid clear = crossed_.eroded();
+  const CellGrid clear = crossed_.eroded(), open = crossed_.erodedToOneSide();
   for (int ty = 0; ty < voids_.side(); ty += 8) {
     for (int tx = 0; tx < voids_.side(); tx += 8) {
       const int x = (voids_.x0() + tx) >> 3, y = (voids_.y0() + ty) >> 3;
@@ -207,8 +212,11 @@ void FreeSpace::update() {
         const std::uint64_t hit = hit_.word(cx, cy);
         for (std::uint64_t& plane : column.crossed) plane &= ~hit;
         count(column.crossed, crossed_.word(cx, cy));
-        column.is_void |= clear.word(cx, cy) & atLeast(column.crossed, static_cast<unsigned>(config_.tau_f));
+        const std::uint64_t often = atLeast(column.crossed, static_cast<unsigned>(config_.tau_f));
+        column.is_void |= clear.word(cx, cy) & often;
+        column.is_open |= open.word(cx, cy) & often;
         voids_.word(cx, cy) = column.is_void;
+        open_.word(cx, cy) = column.is_open;
       }
     }
   }

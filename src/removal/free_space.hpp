@@ -44,6 +44,8 @@ class FreeSpace {
 
   /// The void around the sensor, as of the last scan.
   const CellGrid& voids() const { return voids_; }
+  /// Cells that would be void, were those on one of their sides crossed, too.
+  const CellGrid& open() const { return open_; }
   /// A cell is 2^shift cubes wide.
   int shift() const { return shift_; }
 
@@ -56,6 +58,7 @@ class FreeSpace {
   /// 64 cells above each other.
   struct CellColumn {
     std::uint64_t is_void = 0;
+    std::uint64_t is_open = 0;               // void but for one side
     std::array<std::uint64_t, 3> crossed{};  // scans since the last hit: bit-sliced counters up to 7
   };
   /// 8 x 8 columns of cells; what is kept from scan to scan.
@@ -83,7 +86,7 @@ class FreeSpace {
   double cube_;
   int shift_;
   CellGrid hit_, crossed_;  // of the scan
-  CellGrid voids_;
+  CellGrid voids_, open_;
   BlockIndex<Tile> tiles_;
 };
 

@@ -1,9 +1,16 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "moving_hits.hpp"
 
+#include <cmath>
+
 #include "evidence.hpp"
 
 namespace rhmap {
+
+MovingHits::MovingHits(const RemovalConfig& config, double cube)
+    : config_(config),
+      reach_(cubesAround(config.evidence.sure_reach, cube)),
+      least_new_(static_cast<int>(std::ceil(config.free_space.least_new / (cube * cube)))) {}
 
 std::size_t MovingHits::reject(const RegionMap& map, const ScanTrace& trace, const FreeSpace& free_space,
                                std::vector<RemovedCubesOf>& removed) const {
@@ -28,7 +35,10 @@ std::size_t MovingHits::reject(const RegionMap& map, const ScanTrace& trace, con
                   [&](const OcTreeKey& corner, std::uint64_t hit, std::size_t) {
                     const int x = corner[0] >> shift, y = corner[1] >> shift, z = corner[2] >> shift;
                     solid.set(x, y, z);
-                    if ((come & hit) == 0 && ((hit & ~octant.ground) == 0 || !voids.at(x, y, z))) return;
+                    if ((come & hit) == 0 &&
+                        ((hit & ~octant.ground) == 0 ||
+                         (!voids.at(x, y, z) && !(free_space.open().at(x, y, z) && isNew(map, trace, *region, o)))))
+                      return;
                     moving.set(x, y, z);
                     any = true;
                   });
@@ -62,6 +72,14 @@ std::size_t MovingHits::reject(const RegionMap& map, const ScanTrace& trace, con
     });
   }
   return rejected;
+}
+
+/// Whether much in and around an octant is new to the map and little is firm.
+bool MovingHits::isNew(const RegionMap& map, const ScanTrace& trace, const Region& region, std::size_t o) const {
+  const Neighbourhood around = lookAround(
+      map, map.cornerOf(region, o), reach_,
+      [&](const Region& r, const Octant& octant) { return r.scan == trace.scan ? octant.fresh & ~octant.ground : 0; });
+  return around.moving >= least_new_ && around.isMoving(config_.evidence.share);
 }
 
 void MovingHits::lookBack(const RegionMap& map, const ScanTrace& trace) const {

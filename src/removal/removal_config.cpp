@@ -114,6 +114,7 @@ void validate(const RemovalConfig& c) {
   between(1e-6, 200, "free_space.max_range", c.free_space.max_range, "above 0 and up to 200 m");
   atLeast0("free_space.surface", c.free_space.surface);
   between(1, 7, "free_space.tau_f", c.free_space.tau_f, "between 1 and 7");
+  atLeast0("free_space.least_new", c.free_space.least_new);
   between(1, 255, "free_space.tau_r", c.free_space.tau_r, "between 1 and 255");
   between(0, 16, "free_space.growth", c.free_space.growth, "between 0 and 16");
   atLeast0("free_space.known", c.free_space.known);

@@ -74,13 +74,14 @@ struct EvidenceConfig {
 /// Void: space that rays have crossed so often and so widely that what is hit in it moves.
 struct VoidConfig {
   bool enabled = true;
-  double cell = 0.4;      ///< edge of a cell of free space [m]; taken as 2 or 4 cubes
-  double max_range = 50;  ///< rays are followed up to here [m]
-  double surface = 0.2;   ///< d_s: this much of a ray's end is surface, not free [m]
-  int tau_f = 6;          ///< scans that must have crossed a cell since its last hit; 1 to 7
-  int tau_r = 20;         ///< scans in a row that must have hit a void cell to make it an ordinary one again
-  int growth = 2;         ///< steps (cells) from what moves to what belongs to it
-  int known = 3;          ///< but no cube that more scans than this have hit
+  double cell = 0.4;       ///< edge of a cell of free space [m]; taken as 2 or 4 cubes
+  double max_range = 50;   ///< rays are followed up to here [m]
+  double surface = 0.2;    ///< d_s: this much of a ray's end is surface, not free [m]
+  int tau_f = 6;           ///< scans that must have crossed a cell since its last hit; 1 to 7
+  double least_new = 0.2;  ///< cells not crossed on one side count, too, where so much that is hit is new [m^2]
+  int tau_r = 20;          ///< scans in a row that must have hit a void cell to make it an ordinary one again
+  int growth = 2;          ///< steps (cells) from what moves to what belongs to it
+  int known = 3;           ///< but no cube that more scans than this have hit
 };
 
 /// Looking back: a cube that is new to the map, and that past scans saw through, holds something that has come.
