@@ -2,20 +2,45 @@
 #include "cell_grid.hpp"
 
 namespace rhmap {
+namespace {
+
+/// The cells whose neighbours above and below are set as well.
+std::uint64_t upright(std::uint64_t cells) { return cells & cells << 1 & cells >> 1; }
+
+}  // namespace
+
+// The loops below have no branches, so that they become vector code.
 
 CellGrid CellGrid::eroded() const {
   CellGrid result(x0_, y0_, z0_, side_);
   const auto side = static_cast<std::size_t>(side_);
-  // Without branches, so that the loops become vector code.
   std::vector<std::uint64_t> along_y(side);
   for (std::size_t y = 1; y + 1 < side; ++y) {
     const std::uint64_t* row = &words_[y * side];
-    for (std::size_t x = 0; x < side; ++x) {
-      const std::uint64_t all = row[x - side] & row[x] & row[x + side];
-      along_y[x] = all & all << 1 & all >> 1;
-    }
+    for (std::size_t x = 0; x < side; ++x) along_y[x] = upright(row[x - side] & row[x] & row[x + side]);
     std::uint64_t* to = &result.words_[y * side];
     for (std::size_t x = 1; x + 1 < side; ++x) to[x] = along_y[x - 1] & along_y[x] & along_y[x + 1];
+  }
+  return result;
+}
+
+CellGrid CellGrid::erodedToOneSide() const {
+  CellGrid result(x0_, y0_, z0_, side_);
+  const auto side = static_cast<std::size_t>(side_);
+  std::vector<std::uint64_t> before(side), here(side), after(side), along_y(side);
+  for (std::size_t y = 1; y + 1 < side; ++y) {
+    const std::uint64_t* row = &words_[y * side];
+    for (std::size_t x = 0; x < side; ++x) {
+      before[x] = upright(row[x - side]), here[x] = upright(row[x]), after[x] = upright(row[x + side]);
+      along_y[x] = before[x] & here[x] & after[x];
+    }
+    const auto along_x = [](const std::vector<std::uint64_t>& cells, std::size_t x) {
+      return cells[x - 1] & cells[x] & cells[x + 1];
+    };
+    std::uint64_t* to = &result.words_[y * side];
+    for (std::size_t x = 1; x + 1 < side; ++x)
+      to[x] = (along_x(here, x) & (along_x(before, x) | along_x(after, x))) |
+              (along_y[x] & (along_y[x - 1] | along_y[x + 1]));
   }
   return result;
 }

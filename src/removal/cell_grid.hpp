@@ -58,6 +58,8 @@ class CellGrid {
 
   /// The cells whose 26 neighbours are all set as well; none at the window's rim.
   CellGrid eroded() const;
+  /// The cells whose neighbours are all set as well, but for those on one of the four sides.
+  CellGrid erodedToOneSide() const;
   /// The cells that are set or next to one that is; what is set at the rim of the window does not spread.
   CellGrid dilated() const;
 

@@ -1,13 +1,17 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <algorithm>
+#include <array>
+#include <bit>
+#include <cmath>
 #include <cstdint>
 
 #include "region_map.hpp"
 
 namespace rhmap {
 
-/// What the octant of a cube and the 26 around it say.
+/// What is in and around an octant says.
 struct Neighbourhood {
   int moving = 0;  ///< cubes that speak for something that has moved
   int firm = 0;    ///< cubes that stand
@@ -16,23 +20,56 @@ struct Neighbourhood {
   bool isMoving(double share) const { return moving > 0 && moving >= share * (moving + firm); }
 };
 
-/// Sums up around an octant (its lowest cube). `movingIn(region, octant)` gives the octant's cubes of the first kind.
+inline constexpr int kFarthestAround = 4;  ///< cubes around an octant: the 26 octants beside it as a whole
+
+/// A distance [m] as so many cubes around an octant.
+inline int cubesAround(double distance, double resolution) {
+  return static_cast<int>(std::clamp(std::round(distance / resolution), 1.0, double(kFarthestAround)));
+}
+
+/// The cubes of an octant that are up to `reach` cubes (1 to 4) from the octant beside it, on the side of larger or
+/// smaller coordinates of an axis.
+constexpr std::uint64_t nearSide(unsigned axis, int reach, bool larger) {
+  std::uint64_t cubes = 0;
+  for (unsigned bit = 0; bit < 64; ++bit) {
+    const int along = static_cast<int>((bit >> axis & 1) | (bit >> (axis + 2) & 2));
+    if (larger ? along >= 4 - reach : along < reach) cubes |= std::uint64_t{1} << bit;
+  }
+  return cubes;
+}
+
+/// For reach 1 to 4, each axis, and the octants before, at and after one's own: the cubes that are near.
+inline constexpr auto kNearSides = [] {
+  std::array<std::array<std::array<std::uint64_t, 3>, 3>, 4> sides{};
+  for (std::size_t reach = 1; reach <= 4; ++reach)
+    for (unsigned axis = 0; axis < 3; ++axis)
+      sides[reach - 1][axis] = {nearSide(axis, static_cast<int>(reach), true), ~std::uint64_t{0},
+                                nearSide(axis, static_cast<int>(reach), false)};
+  return sides;
+}();
+
+/// Sums up an octant (its lowest cube) and so many cubes (1 to 4) around it. `movingIn(region, octant)` gives the
+/// octant's cubes of the first kind.
 template <class MovingIn>
-Neighbourhood lookAround(const RegionMap& map, const OcTreeKey& corner, MovingIn&& movingIn) {
+Neighbourhood lookAround(const RegionMap& map, const OcTreeKey& corner, int reach, MovingIn&& movingIn) {
   Neighbourhood around;
   const Region* region = nullptr;
-  for (int dx = -4; dx <= 4; dx += 4) {
-    for (int dy = -4; dy <= 4; dy += 4) {
-      for (int dz = -4; dz <= 4; dz += 4) {
-        const OcTreeKey at(static_cast<key_type>(corner[0] + dx), static_cast<key_type>(corner[1] + dy),
-                           static_cast<key_type>(corner[2] + dz));
+  const auto& near = kNearSides[static_cast<std::size_t>(reach - 1)];
+  for (int dx = -1; dx <= 1; ++dx) {
+    for (int dy = -1; dy <= 1; ++dy) {
+      for (int dz = -1; dz <= 1; ++dz) {
+        const OcTreeKey at(static_cast<key_type>(corner[0] + 4 * dx), static_cast<key_type>(corner[1] + 4 * dy),
+                           static_cast<key_type>(corner[2] + 4 * dz));
         const int x = at[0] >> map.bits(), y = at[1] >> map.bits(), z = at[2] >> map.bits();
         if (region == nullptr || region->x != x || region->y != y || region->z != z) region = map.find(x, y, z);
         if (region == nullptr) continue;
         const Octant& octant = region->octants[map.octantOf(at)];
-        const std::uint64_t moving = movingIn(*region, octant);
+        const std::uint64_t within = near[0][static_cast<std::size_t>(dx + 1)] &
+                                     near[1][static_cast<std::size_t>(dy + 1)] &
+                                     near[2][static_cast<std::size_t>(dz + 1)];
+        const std::uint64_t moving = movingIn(*region, octant) & within;
         around.moving += std::popcount(moving);
-        around.firm += std::popcount(octant.firm & ~octant.doubted & ~octant.ground & ~moving);
+        around.firm += std::popcount(octant.firm & ~octant.doubted & ~octant.ground & ~moving & within);
       }
     }
   }

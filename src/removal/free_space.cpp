@@ -30,6 +30,7 @@ void FreeSpace::Tile::moveTo(int z) {
   if (z == z0) return;
   for (CellColumn& column : columns) {
     column.is_void = shifted(column.is_void, z - z0);
+    column.is_open = shifted(column.is_open, z - z0);
     column.crossed.shift(z - z0);
   }
   for (Counters<8>& counters : hits) counters.shift(z - z0);
@@ -68,7 +69,7 @@ void FreeSpace::observe(const RegionMap& map, const ScanTrace& trace, const std:
   const int radius = static_cast<int>(std::ceil(config_.max_range / (cube_ * (1 << shift_)))) + 2;
   const int x0 = (cell[0] - radius) & ~7, y0 = (cell[1] - radius) & ~7, z0 = (cell[2] - kBelow) & ~7;
   const int side = (2 * radius + 15) & ~7;
-  for (CellGrid* grid : {&ends_, &hit_, &crossed_, &voids_}) grid->reset(x0, y0, z0, side);
+  for (CellGrid* grid : {&ends_, &hit_, &crossed_, &voids_, &open_}) grid->reset(x0, y0, z0, side);
 
   VoidRays rays;
   markHits(map, trace, from, rays);
@@ -109,7 +110,7 @@ void FreeSpace::markHits(const RegionMap& map, const ScanTrace& trace, const std
   });
 }
 
-/// What has come to stay: void cells that are hit again and again, and that no ray crosses any more.
+/// What has come to stay: void or open cells that are hit again and again, and that no ray crosses any more.
 CellGrid FreeSpace::stayed() {
   CellGrid stayed(voids_.x0(), voids_.y0(), voids_.z0(), voids_.side());
   forEachTile([&](Tile& tile, int tx, int ty) {
@@ -120,7 +121,8 @@ CellGrid FreeSpace::stayed() {
       Counters<8>& hits = tile.hits[static_cast<std::size_t>(i)];
       hits.reset(ends & column.crossed.atLeast(1));
       hits.countUp(ends);
-      stayed.word(tx + i % 8, ty + i / 8) = ends & column.is_void & hits.atLeast(static_cast<unsigned>(config_.tau_r));
+      stayed.word(tx + i % 8, ty + i / 8) =
+          ends & (column.is_void | column.is_open) & hits.atLeast(static_cast<unsigned>(config_.tau_r));
     }
   });
   return stayed;
@@ -128,7 +130,7 @@ CellGrid FreeSpace::stayed() {
 
 /// Takes the scan's cells into the tiles' counters, and finds the void.
 void FreeSpace::update() {
-  const CellGrid clear = crossed_.eroded();
+  const CellGrid clear = crossed_.eroded(), open = crossed_.erodedToOneSide();
   CellGrid filled = stayed();
   if (!filled.empty()) filled = filled.dilated();  // nor are those around it void any longer
   forEachTile([&](Tile& tile, int tx, int ty) {
@@ -136,10 +138,14 @@ void FreeSpace::update() {
       const int cx = tx + i % 8, cy = ty + i / 8;
       CellColumn& column = tile.columns[static_cast<std::size_t>(i)];
       column.is_void &= ~filled.word(cx, cy);
+      column.is_open &= ~filled.word(cx, cy);
       column.crossed.reset(hit_.word(cx, cy));
       column.crossed.countUp(crossed_.word(cx, cy));
-      column.is_void |= clear.word(cx, cy) & column.crossed.atLeast(static_cast<unsigned>(config_.tau_f));
+      const std::uint64_t often = column.crossed.atLeast(static_cast<unsigned>(config_.tau_f));
+      column.is_void |= clear.word(cx, cy) & often;
+      column.is_open |= open.word(cx, cy) & often;
       voids_.word(cx, cy) = column.is_void;
+      open_.word(cx, cy) = column.is_open;
     }
   });
 }

@@ -45,6 +45,8 @@ class FreeSpace {
 
   /// The void around the sensor, as of the last scan.
   const CellGrid& voids() const { return voids_; }
+  /// Cells that would be void, were those on one of their sides crossed, too.
+  const CellGrid& open() const { return open_; }
   /// The cells that the last scan has hit.
   const CellGrid& ends() const { return ends_; }
   /// A cell is 2^shift cubes wide.
@@ -59,7 +61,8 @@ class FreeSpace {
   /// 64 cells above each other.
   struct CellColumn {
     std::uint64_t is_void = 0;
-    Counters<3> crossed;  // scans since the last hit
+    std::uint64_t is_open = 0;  // void but for one side
+    Counters<3> crossed;        // scans since the last hit
   };
   /// 8 x 8 columns of cells; what is kept from scan to scan.
   struct Tile {
@@ -82,7 +85,7 @@ class FreeSpace {
   CellGrid ends_;     // of the scan: where its points are
   CellGrid hit_;      // and where with noise the surface may be
   CellGrid crossed_;  // by its rays
-  CellGrid voids_;
+  CellGrid voids_, open_;
   BlockIndex<Tile> tiles_;
 };
 

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdlib>
+#include <limits>
 #include <vector>
 
 namespace rhmap {
@@ -69,6 +70,7 @@ GroundEstimation::GroundEstimation(const GroundConfig& config, double resolution
     : config_(config),
       resolution_(resolution),
       r_gro_(static_cast<float>(config.r_gro / resolution)),
+      depth_(config.depth > 0 ? static_cast<float>(config.depth / resolution) : std::numeric_limits<float>::max()),
       thin_(config.thin < 0 ? r_gro_ : static_cast<float>(config.thin / resolution)) {}
 
 void GroundEstimation::update(const RegionMap& map, const ScanTrace& trace) const {
@@ -146,7 +148,7 @@ void GroundEstimation::fit(const RegionMap& map, Region& region) const {
 }
 
 /// Eq. (5), for all cubes of the region and not only for those that the plane was fitted to: ground is thicker than a
-/// layer. What lies below the plane is ground, too.
+/// layer. What lies just below the plane is ground, too; farther below, the plane is that of something on the ground.
 void GroundEstimation::mark(const RegionMap& map, const Column& column, Region& region, bool only_fresh) const {
   // The planes that may hold ground of this region, and where this region's lowest cube is in their own.
   struct Near {
@@ -179,8 +181,10 @@ void GroundEstimation::mark(const RegionMap& map, const Column& column, Region& 
       const LocalCube c = localCube(o, bit);
       const auto x = static_cast<float>(c.x), y = static_cast<float>(c.y), z = static_cast<float>(c.z);
       float lowest = r_gro_;
-      for (std::size_t i = 0; i < n; ++i)
-        lowest = std::min(lowest, near[i].plane->above(x + near[i].dx, y + near[i].dy, z + near[i].dz));
+      for (std::size_t i = 0; i < n; ++i) {
+        const float above = near[i].plane->above(x + near[i].dx, y + near[i].dy, z + near[i].dz);
+        if (above >= -depth_) lowest = std::min(lowest, above);
+      }
       if (lowest < r_gro_) ground |= maskOf(bit);
       if (lowest <= thin_) safe |= maskOf(bit);
     });

@@ -37,7 +37,7 @@ class GroundEstimation {
 
   GroundConfig config_;
   double resolution_;
-  float r_gro_, thin_;  // [cubes]
+  float r_gro_, depth_, thin_;  // [cubes]
 };
 
 }  // namespace rhmap

@@ -1,10 +1,17 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "moving_hits.hpp"
 
+#include <cmath>
+
 #include "cell_counters.hpp"
 #include "evidence.hpp"
 
 namespace rhmap {
+
+MovingHits::MovingHits(const RemovalConfig& config, double cube)
+    : config_(config),
+      reach_(cubesAround(config.evidence.sure_reach, cube)),
+      least_new_(static_cast<int>(std::ceil(config.free_space.least_new / (cube * cube)))) {}
 
 std::size_t MovingHits::reject(const RegionMap& map, const ScanTrace& trace, const FreeSpace& free_space,
                                std::vector<RemovedCubesOf>& removed) const {
@@ -18,14 +25,16 @@ std::size_t MovingHits::reject(const RegionMap& map, const ScanTrace& trace, con
   trace.forEachHitOctant([&](const Region& region, std::size_t o, const Octant& octant) {
     std::uint64_t come = octant.appeared;
     if (come != 0) {
-      const Neighbourhood around = lookAround(map, map.cornerOf(region, o), [&](const Region& r, const Octant& beside) {
-        return r.scan == trace.scan ? beside.appeared : 0;
-      });
+      const Neighbourhood around =
+          lookAround(map, map.cornerOf(region, o), kFarthestAround,
+                     [&](const Region& r, const Octant& beside) { return r.scan == trace.scan ? beside.appeared : 0; });
       if (!around.isMoving(config_.look_back.share)) come = 0;
     }
     forEachCell(octant.hit, map.cornerOf(region, o), shift, [&](const OcTreeKey& corner, std::uint64_t hit) {
       const int x = corner[0] >> shift, y = corner[1] >> shift, z = corner[2] >> shift;
-      if ((come & hit) == 0 && ((hit & ~octant.ground) == 0 || !voids.at(x, y, z))) return;
+      const bool is_void = (hit & ~octant.ground) != 0 &&
+                           (voids.at(x, y, z) || (free_space.open().at(x, y, z) && isNew(map, trace, region, o)));
+      if ((come & hit) == 0 && !is_void) return;
       moving.set(x, y, z);
       any = true;
     });
@@ -55,6 +64,14 @@ std::size_t MovingHits::reject(const RegionMap& map, const ScanTrace& trace, con
     region.remove(o, out);
   });
   return rejected;
+}
+
+/// Whether much in and around an octant is new to the map and little is firm.
+bool MovingHits::isNew(const RegionMap& map, const ScanTrace& trace, const Region& region, std::size_t o) const {
+  const Neighbourhood around = lookAround(
+      map, map.cornerOf(region, o), reach_,
+      [&](const Region& r, const Octant& octant) { return r.scan == trace.scan ? octant.fresh & ~octant.ground : 0; });
+  return around.moving >= least_new_ && around.isMoving(config_.evidence.share);
 }
 
 /// Octant::appeared: what is new and was seen through by past scans.

@@ -16,7 +16,8 @@ namespace rhmap {
 /// scans saw through, and what belongs to these.
 class MovingHits {
  public:
-  explicit MovingHits(const RemovalConfig& config) : config_(config) {}
+  /// `cube`: edge of a cube [m].
+  MovingHits(const RemovalConfig& config, double cube);
 
   /// Takes the hits of what moves out of the regions. Cubes that the map had before are appended to `removed`. Returns
   /// the number of cubes taken out.
@@ -32,9 +33,11 @@ class MovingHits {
     std::shared_ptr<const Visibility> visibility;
   };
 
+  bool isNew(const RegionMap& map, const ScanTrace& trace, const Region& region, std::size_t o) const;
   void lookBack(const RegionMap& map, const ScanTrace& trace) const;
 
   RemovalConfig config_;
+  int reach_, least_new_;  // in cubes
   std::deque<Past> past_;
 };
 

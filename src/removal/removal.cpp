@@ -46,7 +46,7 @@ RhMap::Removal::Removal(RhMap& tree, const RemovalConfig& config)
       regions_(config.region_size, [&tree](key_type x, key_type y, int size) { return readColumn(tree, x, y, size); }),
       ground_(config.ground, resolution_),
       free_space_(config.free_space, resolution_),
-      moving_hits_(config),
+      moving_hits_(config, resolution_),
       keyframes_(config.back_end) {}
 
 ScanReport RhMap::Removal::process(const octomap::Pointcloud& points, const octomap::pose6d& pose, bool insert) {

@@ -14,7 +14,8 @@ struct Doubt {
   Region* region;
   std::size_t octant;
   std::uint64_t cubes;
-  int misses;  // that are needed
+  std::uint64_t rest;  // cubes of which the scan cannot tell
+  int misses;          // that are needed
 };
 
 /// One scan's look at the map: first at all that may have gone, then, with all doubts known, at what stands around.
@@ -22,7 +23,13 @@ class ScanToMapRemoval {
  public:
   ScanToMapRemoval(const RegionMap& map, const ScanContext& scan, const RemovalConfig& config, double resolution,
                    const LookConfig& look, RemovalResult& result)
-      : map_(map), scan_(scan), config_(config), resolution_(resolution), look_(look), result_(result) {}
+      : map_(map),
+        scan_(scan),
+        config_(config),
+        resolution_(resolution),
+        sure_reach_(cubesAround(config.evidence.sure_reach, resolution)),
+        look_(look),
+        result_(result) {}
 
   void run() {
     std::vector<const Column*> candidates;
@@ -108,7 +115,7 @@ class ScanToMapRemoval {
       if (is_candidate) result_.is_protected += static_cast<std::size_t>(std::popcount(octant.occupied));
       const OcTreeKey corner = map_.cornerOf(region, o);
       if (cubes == 0 || (octant.doubted == 0 && isHidden(corner, 4))) continue;
-      doubts_.push_back({&region, o, cubes, misses});
+      doubts_.push_back({&region, o, cubes, 0, misses});
       places_.push_back({corner, cubes});
     }
   }
@@ -147,6 +154,7 @@ class ScanToMapRemoval {
       region.doubtful = region.doubtful || octant.doubted != 0;
       if (through == 0) continue;
       if (doubt.misses == 1) result_.is_protected -= static_cast<std::size_t>(std::popcount(through));
+      doubt.rest = doubt.cubes & ~through & ~filled;
       doubt.cubes = through;
       doubts_[kept++] = doubt;
     }
@@ -164,13 +172,13 @@ class ScanToMapRemoval {
         const auto [hits, misses] = doubt.region->counts[doubt.octant][static_cast<std::size_t>(bit)];
         if (misses < fewest || (look_.revert_hits > 0 && hits >= look_.revert_hits)) return;
         if (misses >= doubt.misses) due |= maskOf(bit);
-        if (misses >= evidence.sure_misses) sure |= maskOf(bit);
+        if (misses >= std::max<double>(evidence.sure_misses, evidence.sure_ratio * hits)) sure |= maskOf(bit);
       });
       if ((due | sure) == 0) continue;
-      const Neighbourhood around = lookAround(map_, map_.cornerOf(*doubt.region, doubt.octant),
-                                              [](const Region&, const Octant& o) { return o.doubted; });
+      const Neighbourhood around = doubtedAround(doubt, kFarthestAround);
       if (around.isMoving(evidence.share)) gone[d] |= due;
-      if (around.isMoving(evidence.sure_share)) gone[d] |= sure;
+      if ((sure & ~gone[d]) != 0 && doubtedAround(doubt, sure_reach_).isMoving(evidence.sure_share)) gone[d] |= sure;
+      if (around.firm == 0) gone[d] |= restOf(doubt, gone[d]);
     }
     for (std::size_t d = 0; d < doubts_.size(); ++d) {
       const Doubt& doubt = doubts_[d];
@@ -181,10 +189,25 @@ class ScanToMapRemoval {
     }
   }
 
+  Neighbourhood doubtedAround(const Doubt& doubt, int reach) const {
+    return lookAround(map_, map_.cornerOf(*doubt.region, doubt.octant), reach,
+                      [](const Region&, const Octant& o) { return o.doubted; });
+  }
+
+  /// What goes with the cubes of its octant that go: the scan may never tell of it, where there is nothing behind or
+  /// something before it.
+  std::uint64_t restOf(const Doubt& doubt, std::uint64_t gone) const {
+    if (scan_.visibility == nullptr) return 0;
+    const std::uint64_t rest = doubt.rest & ~doubt.region->octants[doubt.octant].firm;
+    const int n = std::popcount(gone);
+    return n > 0 && n >= config_.evidence.rest_share * (n + std::popcount(rest)) ? rest : 0;
+  }
+
   const RegionMap& map_;
   const ScanContext& scan_;
   const RemovalConfig& config_;
   double resolution_;
+  int sure_reach_;  // in cubes
   const LookConfig& look_;
   RemovalResult& result_;
   std::vector<Doubt> doubts_;

@@ -47,7 +47,8 @@ Visibility::Visibility(const RangeImage& image, const ScanPoints& scan, const Vi
       behind_(static_cast<float>(config.behind)),
       before_(static_cast<float>(config.before)),
       surface_(static_cast<float>(config.surface)),
-      surface_share_(static_cast<float>(config.surface_share)) {
+      surface_share_(static_cast<float>(config.surface_share)),
+      edge_(static_cast<float>(1 + config.edge_share)) {
   for (std::size_t i = 0; i < points_.size(); ++i) {
     if (const std::int32_t k = image.points()[i]; k >= 0) {
       const auto at = static_cast<std::size_t>(k);
@@ -55,8 +56,7 @@ Visibility::Visibility(const RangeImage& image, const ScanPoints& scan, const Vi
     }
   }
 
-  // A cube is as large as the ball around it.
-  const double radius = cube * std::sqrt(3.0) / 2;
+  const double radius = std::min(cube * std::sqrt(3.0) / 2, config.ball);
   const double rows = double(projection_.rowsPerRadian()), columns = projection_.columns / (2 * double(kPi));
   const auto pixels = [&](double count) {
     return static_cast<std::int8_t>(std::clamp(static_cast<int>(std::ceil(count)), config.window, 64));
@@ -112,6 +112,9 @@ inline Look Visibility::at(const std::array<float, 3>& p, float range, std::int3
   if (pixel < 0) return Look::kUnknown;
   const float centre = ranges_[static_cast<std::size_t>(pixel)];
   if (centre < range - before_) return Look::kUnknown;
+  // Above the first row's beam nothing would show a surface that runs on towards the sensor: a ceiling.
+  if (pixel < projection_.columns && centre < range * edge_ && projection_.rowOf(p[0], p[1], p[2]) < kFirstBeam)
+    return Look::kUnknown;
   if (centre <= range + behind_) return Look::kFilled;
   return around(p, range, pixel);
 }

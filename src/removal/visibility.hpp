@@ -69,6 +69,7 @@ class Visibility {
   Look at(const std::array<float, 3>& p, float range, std::int32_t pixel) const;
   Look around(const std::array<float, 3>& p, float range, std::int32_t pixel) const;
 
+  static constexpr float kFirstBeam = 0.75F;  // rows from the image's upper edge; a beam's elevation wavers
   static constexpr float kStepsPerMetre = 4;
   static constexpr int kSmallestBlock = 4;  // pixels of an edge
   /// The farthest range in blocks of pixels and those around them; 0 where all are empty.
@@ -83,7 +84,7 @@ class Visibility {
   std::vector<std::array<float, 3>> points_;  // sensor's frame [m]
   std::vector<Farthest> farthest_;            // blocks of 4, 8, 16 ... pixels
   std::vector<Window> windows_;               // for cubes so many steps away; beyond: the last
-  float behind_, before_, surface_, surface_share_;
+  float behind_, before_, surface_, surface_share_, edge_;
 };
 
 }  // namespace rhmap

@@ -42,6 +42,26 @@ TEST(CellGrid, ErodesToCellsWithAll26Neighbours) {
   EXPECT_GT(left, 100);
 }
 
+TEST(CellGrid, ErodesToCellsWithAllNeighboursButForOneSide) {
+  const CellGrid grid = randomGrid(12, 90), eroded = grid.erodedToOneSide();
+  int left = 0;
+  forEachCellOfTheWindow([&](int x, int y, int z) {
+    std::array<bool, 4> all{true, true, true, true};  // but for those at smaller x, larger x, smaller y, larger y
+    for (int d = 0; d < 27; ++d) {
+      const int dx = d % 3 - 1, dy = d / 3 % 3 - 1, dz = d / 9 - 1;
+      if (grid.at(x + dx, y + dy, z + dz)) continue;
+      if (dx >= 0) all[0] = false;
+      if (dx <= 0) all[1] = false;
+      if (dy >= 0) all[2] = false;
+      if (dy <= 0) all[3] = false;
+    }
+    const bool expected = !isAtRim(x, y) && (all[0] || all[1] || all[2] || all[3]);
+    ASSERT_EQ(eroded.at(x, y, z), expected) << x << ' ' << y << ' ' << z;
+    left += expected;
+  });
+  EXPECT_GT(left, 100);
+}
+
 TEST(CellGrid, DilatesToCellsWithOneOf26NeighboursExceptFromTheRim) {
   const CellGrid grid = randomGrid(11, 2), dilated = grid.dilated();
   int found = 0;

@@ -17,7 +17,7 @@ TEST(Neighbourhood, MovesIfEnoughOfItDoes) {
   EXPECT_FALSE((Neighbourhood{.moving = 4, .firm = 1}.isMoving(0.81)));
 }
 
-TEST(LookAround, CountsTheCubesOf27Octants) {
+TEST(LookAround, CountsTheCubesOfAnOctantAndSoManyAround) {
   for (const int size : {4, 8, 16}) {
     RegionMap map = test::emptyMap(size);
     test::RandomCubes cubes(8, 16);
@@ -33,21 +33,29 @@ TEST(LookAround, CountsTheCubesOf27Octants) {
       if (kind == 1) octant.firm |= mask, firm.push_back(cube);
       if (kind == 2) octant.firm |= mask, octant.ground |= mask;  // ground speaks for nothing
     }
-    for (int i = 0; i < 50; ++i) {
+    for (int i = 0; i < 60; ++i) {
       const OcTreeKey cube = cubes();
-      const auto isNear = [&](const OcTreeKey& other) {
-        for (unsigned axis = 0; axis < 3; ++axis)
-          if (std::abs((other[axis] >> 2) - (cube[axis] >> 2)) > 1) return false;
-        return true;
-      };
+      const int reach = 1 + i % kFarthestAround;
       const OcTreeKey corner(static_cast<key_type>(cube[0] & ~3), static_cast<key_type>(cube[1] & ~3),
                              static_cast<key_type>(cube[2] & ~3));
+      const auto isNear = [&](const OcTreeKey& other) {
+        for (unsigned axis = 0; axis < 3; ++axis)
+          if (other[axis] + reach < corner[axis] || other[axis] > corner[axis] + 3 + reach) return false;
+        return true;
+      };
       const Neighbourhood around =
-          lookAround(map, corner, [](const Region&, const Octant& octant) { return octant.doubted; });
+          lookAround(map, corner, reach, [](const Region&, const Octant& octant) { return octant.doubted; });
       EXPECT_EQ(around.moving, std::count_if(doubted.begin(), doubted.end(), isNear));
       EXPECT_EQ(around.firm, std::count_if(firm.begin(), firm.end(), isNear));
     }
   }
+}
+
+TEST(LookAround, TakesADistanceAs1To4Cubes) {
+  EXPECT_EQ(cubesAround(0.2, 0.1), 2);
+  EXPECT_EQ(cubesAround(0.2, 0.2), 1);
+  EXPECT_EQ(cubesAround(0.2, 0.5), 1);
+  EXPECT_EQ(cubesAround(0.2, 0.01), 4);
 }
 
 }  // namespace

@@ -101,6 +101,18 @@ TEST(GroundEstimation, TheRoofOfACarIsNoneOnceTheRoadIsSeen) {
   EXPECT_TRUE(ground.is(Ground::at(12, 12, 2)));
 }
 
+TEST(GroundEstimation, WhatIsFarBelowAPlaneIsNotItsGround) {
+  for (const double depth : {0.2, 0.0}) {
+    Ground ground({.depth = depth});
+    auto cubes = Ground::plate(0, 16, 7);
+    for (const int z : {1, 3, 6}) cubes.push_back(Ground::at(17, 12, z));  // too few for a plane of their own
+    ground.insert(cubes);
+    EXPECT_TRUE(ground.isSafe(Ground::at(17, 12, 6)));
+    EXPECT_EQ(ground.isSafe(Ground::at(17, 12, 3)), depth == 0);
+    EXPECT_EQ(ground.is(Ground::at(17, 12, 1)), depth == 0);
+  }
+}
+
 TEST(GroundEstimation, DoesNotClimbSteps) {
   Ground ground;
   ground.insert(Ground::plate(0, 8, 2));

@@ -16,7 +16,7 @@ using test::kCube;
 class Place {
  public:
   explicit Place(const RemovalConfig& config = {})
-      : config_(config), ground_(config.ground, kCube), free_space_(config.free_space, kCube), moving_(config) {}
+      : config_(config), ground_(config.ground, kCube), free_space_(config.free_space, kCube), moving_(config, kCube) {}
 
   /// A box of 1.4 m, 1.2 m wide, on the ground at x = 8 m if `box`; a screen of 3 m hides it if `screen`. Returns the
   /// number of rejected cubes.
@@ -32,16 +32,17 @@ class Place {
         if (p.x() > 8 && std::abs(front.y()) < 0.6F && front.z() < -0.3F) p = front;
       }
     }
-    const ScanPoints points = test::scanOf(cloud, 1);
-    const ScanTrace trace = traceScan(map_, points, sensor_, ++scans_, {.resolution = kCube});
-    ground_.update(map_, trace);
-    const SensorView view(KeySpace(kCube), octomap::pose6d{});
-    free_space_.observe(map_, trace, view.origin());
-    removed_.clear();
-    const std::size_t rejected = moving_.reject(map_, trace, free_space_, removed_);
-    const RangeImage image(measureProjection({}, points), points);
-    moving_.remember(scans_, {{}, {}, view, std::make_shared<Visibility>(image, points, config_.visibility, kCube)});
-    return rejected;
+    return insert(cloud);
+  }
+  /// A post of 1.4 m, 0.3 m wide, at x = 8 m if `post`, half a metre from a wall that runs along x.
+  std::size_t scanBesideWall(bool post) {
+    octomap::Pointcloud cloud = test::wallAndGround(16, 64, 1440);
+    for (octomap::point3d& p : cloud) {
+      if (p.x() > 3 && p.y() > 0.7F) p *= 0.7F / p.y();
+      const octomap::point3d front = p * (8 / p.x());
+      if (post && p.x() > 8 && std::abs(front.y() - 0.2F) < 0.15F && front.z() < -0.3F) p = front;
+    }
+    return insert(cloud);
   }
   /// Cubes of the map in the front of the box, so high above the ground [m].
   int cubesOfBox(double from, double to) const {
@@ -61,6 +62,19 @@ class Place {
   std::size_t numRemoved() const { return removed_.size(); }
 
  private:
+  std::size_t insert(const octomap::Pointcloud& cloud) {
+    const ScanPoints points = test::scanOf(cloud, 1);
+    const ScanTrace trace = traceScan(map_, points, sensor_, ++scans_, {.resolution = kCube});
+    ground_.update(map_, trace);
+    const SensorView view(KeySpace(kCube), octomap::pose6d{});
+    free_space_.observe(map_, trace, view.origin());
+    removed_.clear();
+    const std::size_t rejected = moving_.reject(map_, trace, free_space_, removed_);
+    const RangeImage image(measureProjection({}, points), points);
+    moving_.remember(scans_, {{}, {}, view, std::make_shared<Visibility>(image, points, config_.visibility, kCube)});
+    return rejected;
+  }
+
   OcTreeKey sensor_{kTreeMaxVal, kTreeMaxVal, kTreeMaxVal};
   RemovalConfig config_;
   RegionMap map_ = test::emptyMap();
@@ -86,9 +100,26 @@ TEST(MovingHits, AreAllOfABoxThatComesIntoTheVoidWithItsFeet) {
   EXPECT_EQ(place.cubesOfBox(0.3, 1.3), 0);
 }
 
+TEST(MovingHits, AreFoundBesideAWallIfMuchIsNew) {
+  RemovalConfig config;
+  config.look_back.enabled = false;
+  for (const bool at_all : {true, false}) {
+    if (!at_all) config.free_space.least_new = 10;
+    Place place(config);
+    for (int i = 0; i < 8; ++i) EXPECT_EQ(place.scanBesideWall(false), 0U);
+    const std::size_t rejected = place.scanBesideWall(true);
+    if (at_all) {
+      EXPECT_GT(rejected, 25U);
+    } else {
+      EXPECT_EQ(rejected, 0U);
+    }
+  }
+}
+
 TEST(MovingHits, AreFoundByLookingBack) {
   RemovalConfig config;
   config.free_space.tau_f = 7;
+  config.look_back.stride = 3;
   Place place(config);
   for (int i = 0; i < 6; ++i) place.scan(false);  // two scans remembered, and no void yet
   EXPECT_GT(place.scan(true), 50U);

@@ -101,6 +101,68 @@ TEST(ScanToMapRemoval, LeavesWhatStandsAmongFirmCubes) {
   EXPECT_EQ(with_fence, 0U);
 }
 
+TEST(ScanToMapRemoval, IsSureOfWhatItOftenSeesThroughNearFirmCubes) {
+  const auto cubesGone = [](int scans, const RemovalConfig& config, std::uint8_t hits) {
+    Look look(config);
+    look.ghost(10, 0);
+    look.map().forEachColumn([&](Column& column) {
+      for (const auto& region : column.regions)
+        for (Octant& octant : region->octants) octant.hits.fill(hits);
+    });
+    for (int i = 0; i < 4; ++i)
+      for (int k = 0; k < 12; ++k)
+        for (const int j : {-4, -3, 6, 7}) {  // walls 0.3 m beside it
+          const OcTreeKey cube = at(10 + 0.1 * i, 0.1 * j + 0.05, -1.3 + 0.1 * k);
+          Octant& octant = occupy(look.map(), cube);
+          octant.firm |= maskOf(bitOf(cube)), octant.safe |= maskOf(bitOf(cube));
+        }
+    std::size_t gone = 0;
+    for (int i = 0; i < scans; ++i) gone += cubesOf(look.scan());
+    return gone;
+  };
+  RemovalConfig config;
+  EXPECT_EQ(cubesGone(config.evidence.sure_misses - 1, config, 1), 0U);
+  EXPECT_GT(cubesGone(config.evidence.sure_misses, config, 1), 100U);
+  EXPECT_EQ(cubesGone(config.evidence.sure_misses, config, 10), 0U);  // hit so often: more looks are needed
+  EXPECT_GT(cubesGone(30, config, 10), 100U);
+  config.evidence.sure_reach = 0.4;
+  EXPECT_EQ(cubesGone(config.evidence.sure_misses, config, 1), 0U);
+}
+
+TEST(ScanToMapRemoval, TakesAlongWhatTheScanCannotTell) {
+  RemovalConfig config;
+  for (const double share : {config.evidence.rest_share, 2.0}) {
+    config.evidence.rest_share = share;
+    for (const bool with_firm : {false, true}) {
+      Look look(config);
+      look.ghost(10, 0);
+      std::vector<OcTreeKey> unseen;  // an octant that reaches above the image
+      const OcTreeKey top = at(10.05, 0.05, 1.75);
+      for (int bit = 0; bit < 64; ++bit) {
+        const OcTreeKey cube = cubeOf(OcTreeKey(static_cast<key_type>(top[0] & ~3), static_cast<key_type>(top[1] & ~3),
+                                                static_cast<key_type>(top[2] & ~3)),
+                                      bit);
+        occupy(look.map(), cube);
+        unseen.push_back(cube);
+      }
+      if (with_firm) {
+        const OcTreeKey beside = at(10.05, 0.45, 1.75);
+        Octant& octant = occupy(look.map(), beside);
+        octant.firm = octant.safe = maskOf(bitOf(beside));
+      }
+      look.scan();
+      std::size_t left = 0;
+      for (const OcTreeKey& cube : unseen) left += test::isOccupied(look.map(), cube);
+      if (share > 1 || with_firm) {
+        EXPECT_GT(left, 0U);
+        EXPECT_LT(left, unseen.size());
+      } else {
+        EXPECT_EQ(left, 0U);
+      }
+    }
+  }
+}
+
 TEST(ScanToMapRemoval, LooksEverywhereTwice) {
   RemovalConfig config;
   config.context.delta_1 = 0;  // no candidates

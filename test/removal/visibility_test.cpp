@@ -74,6 +74,44 @@ TEST(Visibility, DoesNotSeeThroughTheEdgeOfAPost) {
   EXPECT_EQ(visibility.at({4, 0, 0}), Look::kSeenThrough);  // before it
 }
 
+TEST(Visibility, DoesNotSeeThroughACeilingThatOnlyTheFirstRowSees) {
+  octomap::Pointcloud cloud;
+  for (int row = 0; row < 64; ++row) {
+    for (int column = 0; column < 1024; ++column) {
+      const double elevation = (2 - 0.4 * row) * M_PI / 180, azimuth = (column + 0.5) / 1024 * 2 * M_PI;
+      const double ceiling = elevation > 0 ? 1.07 / std::sin(elevation) : 1e9,
+                   floor = elevation < 0 ? -1.7 / std::sin(elevation) : 1e9;
+      const double range = std::min({ceiling, floor, 60.0});
+      cloud.push_back(static_cast<float>(range * std::cos(elevation) * std::cos(azimuth)),
+                      static_cast<float>(range * std::cos(elevation) * std::sin(azimuth)),
+                      static_cast<float>(range * std::sin(elevation)));
+    }
+  }
+  VisibilityConfig config;
+  const Visibility visibility = visibilityOf(cloud, config);
+  config.edge_share = 0;
+  const Visibility without = visibilityOf(cloud, config);
+  int through = 0;
+  for (int x = 270; x < 310; ++x) {
+    const std::array<float, 3> place{static_cast<float>(x) / 10, 0, 1.05F};
+    EXPECT_NE(visibility.at(place), Look::kSeenThrough) << x;
+    through += without.at(place) == Look::kSeenThrough;
+  }
+  EXPECT_GT(through, 5);
+  EXPECT_EQ(visibility.at({15, 0, 0.53F}), Look::kSeenThrough);  // far before it
+}
+
+TEST(Visibility, OfLargeCubesSeesTheMiddle) {
+  octomap::Pointcloud cloud = test::wallAndGround(20, 64, 1440);
+  for (octomap::point3d& p : cloud)  // a post of 0.4 m, 6 m away
+    if (p.x() > 6 && std::abs(p.y() / p.x() * 6) < 0.2F) p *= 6 / p.x();
+  const ScanPoints scan = test::scanOf(cloud);
+  const RangeImage image(measureProjection({}, scan), scan);
+  const std::array<float, 3> beside{6, 0.45F, 0};
+  EXPECT_EQ(Visibility(image, scan, {}, 0.4).at(beside), Look::kSeenThrough);
+  EXPECT_EQ(Visibility(image, scan, {.ball = 1}, 0.4).at(beside), Look::kFilled);
+}
+
 TEST(Visibility, SeesCubesAsItSeesTheirCentres) {
   std::mt19937 random(8);
   std::uniform_int_distribution<int> near(-250, 250), height(-25, 15);

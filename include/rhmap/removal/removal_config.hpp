@@ -17,6 +17,7 @@ struct GroundConfig {
   bool across_regions = true;  ///< planes count also for cubes just above their region and for unfitted neighbours
   double thin = 0.07;          ///< ground cubes this far above their plane go if they are seen through or belong to
                                ///< what moves [m]; below 0: none
+  double depth = 0.2;          ///< what is farther below a plane is not its ground [m]; 0: everything below is
   double max_step = 0.4;       ///< a plane this far above that of a neighbour is no ground [m]; 0: any step is
 };
 
@@ -50,37 +51,44 @@ struct VisibilityConfig {
   double before = 0.5;   ///< before it, what is this much nearer; in between something is at its place [m]
   double surface = 0.2;  ///< no cube is seen through that is this near to the line between two pixels' points [m]
   double surface_share = 0.007;  ///< or this near, as a share of the range: pixels are farther apart there
+  double edge_share = 0.15;      ///< above the first row's beam, behind is what is farther by this share
+  double ball = 0.1;             ///< what a scan sees of a cube is the ball around it, up to this radius [m]
   int window = 1;                ///< pixels looked at on each side of the cube's own, more where the cube covers more
 };
 
 /// When a cube goes that scans have seen through.
 struct EvidenceConfig {
-  bool everywhere = true;   ///< all cubes in sight are looked at, not only those of candidates by ratio
-  int interval = 2;         ///< each of these in one of so many scans
-  int misses = 2;           ///< looks in a row that must have seen through a cube; a candidate's goes at the first
-  double share = 0.85;      ///< of the cubes around, doubted and firm ones, so many must be doubted
-  int sure_misses = 6;      ///< after so many looks in a row
-  double sure_share = 0.7;  ///< a smaller share will do
-  int firm = 3;             ///< scans that have hit a cube that speaks for those around it
+  bool everywhere = true;       ///< all cubes in sight are looked at, not only those of candidates by ratio
+  int interval = 2;             ///< each of these in one of so many scans
+  int misses = 2;               ///< looks in a row that must have seen through a cube; a candidate's goes at the first
+  double share = 0.85;          ///< of the cubes around, doubted and firm ones, so many must be doubted
+  int sure_misses = 6;          ///< after so many looks in a row,
+  double sure_ratio = 3;        ///< and so many for each scan that has hit the cube,
+  double sure_reach = 0.2;      ///< only what is so near to its octant is around it [m], taken as 1 to 4 cubes,
+  double sure_share = 0.7;      ///< and a smaller share will do
+  double rest_share = 1.0 / 3;  ///< of the octant's cubes that no scan can tell of or that go, so many must go to take
+                                ///< along the others, unless firm ones are around; above 1: none are taken along
+  int firm = 3;                 ///< scans that have hit a cube that speaks for those around it
 };
 
 /// Void: space that rays have crossed so often and so widely that what is hit in it moves.
 struct VoidConfig {
   bool enabled = true;
-  double cell = 0.4;      ///< edge of a cell of free space [m]; taken as 2 or 4 cubes
-  double max_range = 50;  ///< rays are followed up to here [m]
-  double surface = 0.2;   ///< d_s: this much of a ray's end is surface, not free [m]
-  int tau_f = 6;          ///< scans that must have crossed a cell since its last hit; 1 to 7
-  int tau_r = 20;         ///< scans in a row that must have hit a void cell to make it an ordinary one again
-  int growth = 2;         ///< steps (cells) from what moves to what belongs to it
-  int known = 3;          ///< but no cube that more scans than this have hit
+  double cell = 0.4;       ///< edge of a cell of free space [m]; taken as 2 or 4 cubes
+  double max_range = 50;   ///< rays are followed up to here [m]
+  double surface = 0.2;    ///< d_s: this much of a ray's end is surface, not free [m]
+  int tau_f = 6;           ///< scans that must have crossed a cell since its last hit; 1 to 7
+  double least_new = 0.2;  ///< cells not crossed on one side count, too, where so much that is hit is new [m^2]
+  int tau_r = 20;          ///< scans in a row that must have hit a void cell to make it an ordinary one again
+  int growth = 2;          ///< steps (cells) from what moves to what belongs to it
+  int known = 3;           ///< but no cube that more scans than this have hit
 };
 
 /// Looking back: a cube that is new to the map, and that past scans saw through, holds something that has come.
 struct LookBackConfig {
   bool enabled = true;
-  int scans = 6;       ///< past scans that are asked
-  int stride = 3;      ///< scans from one of these to the next
+  int scans = 4;       ///< past scans that are asked
+  int stride = 6;      ///< scans from one of these to the next
   int seen = 2;        ///< at least so many must have seen through the cube
   int contrary = 1;    ///< and at most so many have seen something at its place
   double share = 0.8;  ///< of the cubes around, new and firm ones, so many must be new in this way
