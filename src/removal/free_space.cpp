@@ -37,22 +37,33 @@ void FreeSpace::Tile::moveTo(int z) {
   z0 = z;
 }
 
-/// Visits the tiles of the window that hold something, or where the scan has something for them: visit(tile, x, y),
-/// with its first column in the window.
+/// Around the sensor's cell, snapped to tiles.
+void FreeSpace::openWindow(const std::array<int, 3>& cell) {
+  const int radius = static_cast<int>(std::ceil(config_.max_range / (cube_ * (1 << shift_)))) + 2;
+  const int x0 = (cell[0] - radius) & ~7, y0 = (cell[1] - radius) & ~7, z0 = (cell[2] - kBelow) & ~7;
+  const int side = (2 * radius + 15) & ~7;
+  for (CellGrid* grid : {&ends_, &hit_, &crossed_}) grid->reset(x0, y0, z0, side);
+  window_.clear();
+  for (int y = y0 >> 3; y < (y0 + side) >> 3; ++y)
+    for (int x = x0 >> 3; x < (x0 + side) >> 3; ++x) window_.push_back(tiles_.find(nameOf(x, y)));
+}
+
+/// Visits the tiles for which the scan has something: visit(tile, x, y), with the tile's first column in the window.
 template <class F>
 void FreeSpace::forEachTile(F&& visit) {
-  for (int ty = 0; ty < voids_.side(); ty += 8) {
-    for (int tx = 0; tx < voids_.side(); tx += 8) {
-      const int x = (voids_.x0() + tx) >> 3, y = (voids_.y0() + ty) >> 3;
-      Tile* tile = tiles_.find(nameOf(x, y));
+  std::size_t number = 0;
+  for (int ty = 0; ty < ends_.side(); ty += 8) {
+    for (int tx = 0; tx < ends_.side(); tx += 8, ++number) {
+      std::uint64_t any = 0;
+      for (int i = 0; i < 64; ++i) any |= crossed_.word(tx + i % 8, ty + i / 8) | hit_.word(tx + i % 8, ty + i / 8);
+      if (any == 0) continue;
+      Tile*& tile = window_[number];
       if (tile == nullptr) {
-        std::uint64_t any = 0;
-        for (int i = 0; i < 64; ++i) any |= crossed_.word(tx + i % 8, ty + i / 8) | ends_.word(tx + i % 8, ty + i / 8);
-        if (any == 0) continue;
-        tile = new Tile{.x = x, .y = y, .z0 = voids_.z0()};
+        const int x = (ends_.x0() + tx) >> 3, y = (ends_.y0() + ty) >> 3;
+        tile = new Tile{.x = x, .y = y, .z0 = ends_.z0()};
         tiles_.insert(nameOf(x, y), tile);
       }
-      tile->moveTo(voids_.z0());
+      tile->moveTo(ends_.z0());
       visit(*tile, tx, ty);
     }
   }
@@ -65,12 +76,7 @@ void FreeSpace::observe(const RegionMap& map, const ScanTrace& trace, const std:
     from[i] = (sensor[i] + 0.5F) / static_cast<float>(1 << shift_);
     cell[i] = static_cast<int>(from[i]);
   }
-  // Snapped to tiles, so that each is looked up once.
-  const int radius = static_cast<int>(std::ceil(config_.max_range / (cube_ * (1 << shift_)))) + 2;
-  const int x0 = (cell[0] - radius) & ~7, y0 = (cell[1] - radius) & ~7, z0 = (cell[2] - kBelow) & ~7;
-  const int side = (2 * radius + 15) & ~7;
-  for (CellGrid* grid : {&ends_, &hit_, &crossed_, &voids_, &open_}) grid->reset(x0, y0, z0, side);
-
+  openWindow(cell);
   VoidRays rays;
   markHits(map, trace, from, rays);
   followRays(from, rays, hit_, crossed_);
@@ -112,7 +118,7 @@ void FreeSpace::markHits(const RegionMap& map, const ScanTrace& trace, const std
 
 /// What has come to stay: void or open cells that are hit again and again, and that no ray crosses any more.
 CellGrid FreeSpace::stayed() {
-  CellGrid stayed(voids_.x0(), voids_.y0(), voids_.z0(), voids_.side());
+  CellGrid stayed(ends_.x0(), ends_.y0(), ends_.z0(), ends_.side());
   forEachTile([&](Tile& tile, int tx, int ty) {
     for (int i = 0; i < 64; ++i) {
       const std::uint64_t ends = ends_.word(tx + i % 8, ty + i / 8);
@@ -128,24 +134,38 @@ CellGrid FreeSpace::stayed() {
   return stayed;
 }
 
+/// These cells and those around them are void no longer.
+void FreeSpace::fill(const CellGrid& cells) {
+  if (cells.empty()) return;
+  const CellGrid filled = cells.dilated();
+  std::size_t number = 0;
+  for (int ty = 0; ty < filled.side(); ty += 8) {
+    for (int tx = 0; tx < filled.side(); tx += 8, ++number) {
+      Tile* tile = window_[number];
+      if (tile == nullptr) continue;
+      tile->moveTo(filled.z0());
+      for (int i = 0; i < 64; ++i) {
+        CellColumn& column = tile->columns[static_cast<std::size_t>(i)];
+        column.is_void &= ~filled.word(tx + i % 8, ty + i / 8);
+        column.is_open &= ~filled.word(tx + i % 8, ty + i / 8);
+      }
+    }
+  }
+}
+
 /// Takes the scan's cells into the tiles' counters, and finds the void.
 void FreeSpace::update() {
   const CellGrid clear = crossed_.eroded(), open = crossed_.erodedToOneSide();
-  CellGrid filled = stayed();
-  if (!filled.empty()) filled = filled.dilated();  // nor are those around it void any longer
+  fill(stayed());
   forEachTile([&](Tile& tile, int tx, int ty) {
     for (int i = 0; i < 64; ++i) {
       const int cx = tx + i % 8, cy = ty + i / 8;
       CellColumn& column = tile.columns[static_cast<std::size_t>(i)];
-      column.is_void &= ~filled.word(cx, cy);
-      column.is_open &= ~filled.word(cx, cy);
       column.crossed.reset(hit_.word(cx, cy));
       column.crossed.countUp(crossed_.word(cx, cy));
       const std::uint64_t often = column.crossed.atLeast(static_cast<unsigned>(config_.tau_f));
       column.is_void |= clear.word(cx, cy) & often;
       column.is_open |= open.word(cx, cy) & often;
-      voids_.word(cx, cy) = column.is_void;
-      open_.word(cx, cy) = column.is_open;
     }
   });
 }
@@ -159,6 +179,7 @@ void FreeSpace::forgetBeyond(const OcTreeKey& centre, int distance) {
   });
   for (Tile* tile : far) {
     tiles_.erase(nameOf(tile->x, tile->y));
+    std::replace(window_.begin(), window_.end(), tile, static_cast<Tile*>(nullptr));
     delete tile;
   }
 }

@@ -4,6 +4,7 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
+#include <vector>
 
 #include "cell_counters.hpp"
 #include "cell_grid.hpp"
@@ -43,10 +44,10 @@ class FreeSpace {
   /// Takes in a scan whose hits are marked. `sensor` in keys (a cube's centre is its key).
   void observe(const RegionMap& map, const ScanTrace& trace, const std::array<float, 3>& sensor);
 
-  /// The void around the sensor, as of the last scan.
-  const CellGrid& voids() const { return voids_; }
-  /// Cells that would be void, were those on one of their sides crossed, too.
-  const CellGrid& open() const { return open_; }
+  /// Whether a cell around the sensor is void, as of the last scan.
+  bool isVoid(int x, int y, int z) const { return holds(&CellColumn::is_void, x, y, z); }
+  /// Whether it would be, were the cells on one of its sides crossed, too.
+  bool isOpen(int x, int y, int z) const { return holds(&CellColumn::is_open, x, y, z); }
   /// The cells that the last scan has hit.
   const CellGrid& ends() const { return ends_; }
   /// A cell is 2^shift cubes wide.
@@ -73,19 +74,28 @@ class FreeSpace {
 
     void moveTo(int z);
   };
+  bool holds(std::uint64_t CellColumn::*cells, int x, int y, int z) const {
+    x -= ends_.x0(), y -= ends_.y0();
+    if (x < 0 || y < 0 || x >= ends_.side() || y >= ends_.side()) return false;
+    const Tile* tile = window_[static_cast<std::size_t>((y >> 3) * (ends_.side() >> 3) + (x >> 3))];
+    if (tile == nullptr || z < tile->z0 || z >= tile->z0 + 64) return false;
+    return (tile->columns[static_cast<std::size_t>((y & 7) * 8 + (x & 7))].*cells >> (z - tile->z0) & 1) != 0;
+  }
+  void openWindow(const std::array<int, 3>& cell);
   template <class F>
   void forEachTile(F&& visit);
   void markHits(const RegionMap& map, const ScanTrace& trace, const std::array<float, 3>& from, VoidRays& rays);
   CellGrid stayed();
+  void fill(const CellGrid& cells);
   void update();
 
   VoidConfig config_;
   double cube_;
   int shift_;
-  CellGrid ends_;     // of the scan: where its points are
-  CellGrid hit_;      // and where with noise the surface may be
-  CellGrid crossed_;  // by its rays
-  CellGrid voids_, open_;
+  CellGrid ends_;              // of the scan: where its points are
+  CellGrid hit_;               // and where with noise the surface may be
+  CellGrid crossed_;           // by its rays
+  std::vector<Tile*> window_;  // those around the sensor, row by row; null where there is none
   BlockIndex<Tile> tiles_;
 };
 

@@ -18,9 +18,8 @@ std::size_t MovingHits::reject(const RegionMap& map, const ScanTrace& trace, con
   if (config_.look_back.enabled) lookBack(map, trace);
 
   // Seeds: cells with hits in the void, or with cubes that have come.
-  const CellGrid& voids = free_space.voids();
   const int shift = free_space.shift();
-  CellGrid moving(voids.x0(), voids.y0(), voids.z0(), voids.side());
+  CellGrid moving(free_space.ends().x0(), free_space.ends().y0(), free_space.ends().z0(), free_space.ends().side());
   bool any = false;
   trace.forEachHitOctant([&](const Region& region, std::size_t o, const Octant& octant) {
     std::uint64_t come = octant.appeared;
@@ -33,7 +32,7 @@ std::size_t MovingHits::reject(const RegionMap& map, const ScanTrace& trace, con
     forEachCell(octant.hit, map.cornerOf(region, o), shift, [&](const OcTreeKey& corner, std::uint64_t hit) {
       const int x = corner[0] >> shift, y = corner[1] >> shift, z = corner[2] >> shift;
       const bool is_void = (hit & ~octant.ground) != 0 &&
-                           (voids.at(x, y, z) || (free_space.open().at(x, y, z) && isNew(map, trace, region, o)));
+                           (free_space.isVoid(x, y, z) || (free_space.isOpen(x, y, z) && isNew(map, trace, region, o)));
       if ((come & hit) == 0 && !is_void) return;
       moving.set(x, y, z);
       any = true;

@@ -39,7 +39,7 @@ class Hall {
     const auto cell = [&](double v) {
       return static_cast<int>(std::floor(v / kCube) + kTreeMaxVal) >> free_space_.shift();
     };
-    return free_space_.voids().at(cell(x), cell(y), cell(z));
+    return free_space_.isVoid(cell(x), cell(y), cell(z));
   }
   FreeSpace& freeSpace() { return free_space_; }
 

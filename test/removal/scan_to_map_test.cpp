@@ -107,7 +107,7 @@ TEST(ScanToMapRemoval, IsSureOfWhatItOftenSeesThroughNearFirmCubes) {
     look.ghost(10, 0);
     look.map().forEachColumn([&](Column& column) {
       for (const auto& region : column.regions)
-        for (Octant& octant : region->octants) octant.hits.fill(hits);
+        for (OctantCounts& counts : region->counts) counts.fill({.hits = hits, .misses = 0});
     });
     for (int i = 0; i < 4; ++i)
       for (int k = 0; k < 12; ++k)
