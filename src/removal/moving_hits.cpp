@@ -31,7 +31,7 @@ std::size_t MovingHits::reject(const RegionMap& map, const ScanTrace& trace, con
     }
     forEachCell(octant.hit, map.cornerOf(region, o), shift, [&](const OcTreeKey& corner, std::uint64_t hit) {
       const int x = corner[0] >> shift, y = corner[1] >> shift, z = corner[2] >> shift;
-      const bool is_void = (hit & ~octant.ground) != 0 &&
+      const bool is_void = config_.free_space.enabled && (hit & ~octant.ground) != 0 &&
                            (free_space.isVoid(x, y, z) || (free_space.isOpen(x, y, z) && isNew(map, trace, region, o)));
       if ((come & hit) == 0 && !is_void) return;
       moving.set(x, y, z);

@@ -83,7 +83,7 @@ ScanReport RhMap::Removal::process(const octomap::Pointcloud& points, const octo
 
   // What moves stays out. Beyond the paper
   RemovalResult result;
-  if (insert && config_.free_space.enabled) {
+  if (insert && (config_.free_space.enabled || config_.look_back.enabled)) {
     free_space_.observe(regions_, trace, context.view.origin());
     report.rejected = moving_hits_.reject(regions_, trace, free_space_, result.removed);
     moving_hits_.remember(scan_, context);

@@ -117,13 +117,25 @@ TEST(MovingHits, AreFoundBesideAWallIfMuchIsNew) {
 }
 
 TEST(MovingHits, AreFoundByLookingBack) {
+  for (const bool void_too : {true, false}) {
+    RemovalConfig config;
+    config.free_space.enabled = void_too;
+    config.free_space.tau_f = 7;
+    config.look_back.stride = 3;
+    Place place(config);
+    for (int i = 0; i < 6; ++i) place.scan(false);  // two scans remembered, and no void yet
+    EXPECT_GT(place.scan(true), 50U);
+    EXPECT_EQ(place.cubesOfBox(0.3, 1.3), 0);
+  }
+}
+
+TEST(MovingHits, AreNotFoundByAVoidThatIsOff) {
   RemovalConfig config;
-  config.free_space.tau_f = 7;
-  config.look_back.stride = 3;
+  config.free_space.enabled = false;
+  config.look_back.enabled = false;
   Place place(config);
-  for (int i = 0; i < 6; ++i) place.scan(false);  // two scans remembered, and no void yet
-  EXPECT_GT(place.scan(true), 50U);
-  EXPECT_EQ(place.cubesOfBox(0.3, 1.3), 0);
+  for (int i = 0; i < 8; ++i) place.scan(false);
+  EXPECT_EQ(place.scan(true), 0U);
 }
 
 TEST(MovingHits, WithoutVoidAndLookingBackGoIntoTheMap) {

@@ -48,6 +48,19 @@ TEST(RhMap, WithNothingToRemoveIsWhatUpdateNodeMakes) {
   }
 }
 
+TEST(RhMap, LooksBackWithoutTheVoid) {
+  for (const bool looks_back : {true, false}) {
+    RemovalConfig config;
+    config.free_space.enabled = false;
+    config.look_back.enabled = looks_back;
+    config.look_back.stride = 2;
+    RhMap map(0.1, config);
+    std::size_t rejected = 0;
+    for (std::size_t k = 0; k < 10; ++k) rejected += map.insertScan(street()[k].points, street()[k].pose).rejected;
+    EXPECT_EQ(rejected > 0, looks_back);
+  }
+}
+
 TEST(RhMap, IsTheSameWithAnyNumberOfThreadsAndInEachRun) {
   RemovalConfig config;
   config.carve = true;
