@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include <array>
+#include <bit>
 #include <cstdlib>
 #include <map>
 #include <set>
@@ -51,6 +52,11 @@ TEST_P(RegionSizes, HeightsFollowInsertionsAndRemovals) {
   }
   for (int round = 0; round < 2; ++round) {
     map.forEachColumn([&](Column& column) {
+      for (const Region* region : column.regions) {
+        int cubes = 0;
+        for (const Octant& octant : region->octants) cubes += std::popcount(octant.occupied);
+        EXPECT_EQ(region->cubes, cubes);
+      }
       map.refreshHeights(column);
       int low = 1 << 16, high = -1;
       for (const auto& [x, y, z] : all) {
