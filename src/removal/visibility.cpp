@@ -180,40 +180,24 @@ Look Visibility::around(const std::array<float, 3>& p, float range, std::int32_t
   const int row = pixel / projection_.columns, column = pixel % projection_.columns;
   const auto step = static_cast<std::size_t>(range * kStepsPerMetre);
   const Window window = step < windows_.size() ? windows_[step] : windows_.back();
-
-  // Runs of pixels in a row: visit(first, last), in two where the image's two ends meet. Until it returns false.
-  const auto forEachRun = [&](auto&& visit) {
-    for (int i = std::max(0, row - window.up); i <= std::min(projection_.rows - 1, row + window.up); ++i) {
-      const int left = column - window.beside, right = column + window.beside + 1;
-      const int start = i * projection_.columns, end = start + projection_.columns;
-      if (!visit(std::max(start + left, start), std::min(start + right, end))) return;
-      if (left < 0 && !visit(end + left, end)) return;
-      if (right > projection_.columns && !visit(start, start + right - projection_.columns)) return;
-    }
-  };
-  int filled = 0, nearer = 0, seen = 0;
-  forEachRun([&](int first, int last) {
-    for (int i = first; i < last; ++i) {  // without branches, so that it becomes vector code
-      const float other = ranges_[static_cast<std::size_t>(i)];
-      filled |= (other >= before) & (other <= behind);
-      nearer |= other < before;
-      seen |= (other > behind) & (other < RangeImage::kEmpty);
-    }
-    return filled == 0;
-  });
-  if (filled != 0) return Look::kFilled;
-  if (seen == 0) return Look::kUnknown;
-  if (nearer == 0) return Look::kSeenThrough;
-
-  // Something nearer beside the cube: a surface may run from there to what is seen at the cube's own pixel.
-  bool clear = ranges_[centre] < RangeImage::kEmpty;
   const float surface = std::max(surface_, surface_share_ * range);
-  forEachRun([&](int first, int last) {
-    for (auto i = static_cast<std::size_t>(first); clear && i < static_cast<std::size_t>(last); ++i)
-      clear = ranges_[i] >= before || squaredDistanceToSegment(p, points_[i], points_[centre]) >= surface * surface;
-    return clear;
-  });
-  return clear ? Look::kSeenThrough : Look::kUnknown;
+  const bool empty = ranges_[centre] == RangeImage::kEmpty;
+  bool seen = false, clear = true;
+  for (int i = std::max(0, row - window.up); i <= std::min(projection_.rows - 1, row + window.up); ++i) {
+    for (int c = column - window.beside; c <= column + window.beside; ++c) {
+      const int j = c < 0 ? c + projection_.columns : c >= projection_.columns ? c - projection_.columns : c;
+      const auto at = static_cast<std::size_t>(i * projection_.columns + j);
+      const float other = ranges_[at];
+      if (other > behind) {
+        seen = seen || other < RangeImage::kEmpty;
+        continue;
+      }
+      if (other >= before) return Look::kFilled;
+      // Something nearer beside the cube: a surface may run from there to what is seen at the cube's own pixel.
+      clear = clear && !empty && squaredDistanceToSegment(p, points_[at], points_[centre]) >= surface * surface;
+    }
+  }
+  return seen && clear ? Look::kSeenThrough : Look::kUnknown;
 }
 
 }  // namespace rhmap
