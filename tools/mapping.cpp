@@ -75,11 +75,12 @@ std::vector<MapFigures> MappingRun::finish() {
   return figures_;
 }
 
-octomap::Pointcloud worldPoints(const io::Scan& scan, double min_range) {
+octomap::Pointcloud worldPoints(const io::Scan& scan, double min_range, std::optional<double> max_range) {
   octomap::Pointcloud points;
   points.reserve(scan.points.size());
   for (const octomap::point3d& point : scan.points) {
-    if (point.norm() >= min_range) points.push_back(point);
+    const double range = point.norm();
+    if (range >= min_range && (!max_range || range <= *max_range)) points.push_back(point);
   }
   points.transform(scan.pose);
   return points;

@@ -79,7 +79,7 @@ class MappingRun {
   std::vector<MapFigures> figures_;
 };
 
-/// The points of a scan from `min_range` [m] on, in the world frame.
-octomap::Pointcloud worldPoints(const io::Scan& scan, double min_range);
+/// The points of a scan from `min_range` [m] on, up to `max_range` [m] if given, in the world frame.
+octomap::Pointcloud worldPoints(const io::Scan& scan, double min_range, std::optional<double> max_range = {});
 
 }  // namespace rhmap::tools

@@ -2,6 +2,7 @@
 #include "octomap_rows.hpp"
 
 #include "ground_cells.hpp"
+#include "mapping.hpp"
 #include "progress_bar.hpp"
 #include "rhmap/removal/rh_map.hpp"
 
@@ -18,13 +19,7 @@ OctomapBaseline runOctomapBaseline(const io::ScanSequence& sequence, const eval:
   ProgressBar bar("octomap", last - window.first + 1);
   for (std::size_t i = window.first; i <= last; ++i) {
     const io::Scan scan = sequence.scan(i);
-    octomap::Pointcloud points;
-    for (const octomap::point3d& point : scan.points) {
-      const double range = point.norm();
-      if (range >= window.min_range && (!window.max_range || range <= *window.max_range)) points.push_back(point);
-    }
-    points.transform(scan.pose);
-    baseline.map->insertPointCloud(points, scan.pose.trans());
+    baseline.map->insertPointCloud(worldPoints(scan, window.min_range, window.max_range), scan.pose.trans());
     ground_map.insertScan(scan.points, scan.pose);
     addGround(scan, ground_map, baseline.ground);
     bar.advance();
