@@ -27,7 +27,7 @@ void mapWithBoth(const io::ScanSequence& sequence, Comparison& comparison) {
     for (std::size_t k = 0; k < run.size(); ++k) comparison.series[k].memory.push_back(run.map(k).memoryUsage());
   });
   comparison.identity = run.compareBytes();
-  comparison.octomap = copyOf(run.map(1));
+  if (!comparison.identity.ot || !comparison.options.profiles.empty()) comparison.octomap = copyOf(run.map(1));
   if (!comparison.identity.ot) comparison.difference = differenceOf(*copyOf(run.map(0)), *comparison.octomap);
   comparison.maps = run.finish();
   for (std::size_t k = 0; k < kinds.size(); ++k) comparison.series[k].seconds = comparison.maps[k].seconds;

@@ -47,7 +47,8 @@ struct Comparison {
   std::vector<MapperSeries> series;         ///< the same, then one a profile
   Identity identity;                        ///< of what rhmap and OctoMap write
   std::optional<MapDifference> difference;  ///< counted where the bytes are not the same
-  std::unique_ptr<OcTree> octomap;          ///< OctoMap's map, read from what it writes
+  std::unique_ptr<OcTree> octomap;          ///< OctoMap's map, read from what it writes; null if nothing
+                                            ///< asks for it: the bytes are the same, and no profile is compared
   std::vector<CleanedMap> cleaned;
   KeySet hits;                      ///< cells that any scan has hit, in the ranges of the removal
   KeySet ground;                    ///< cells that the removal took for ground when they were hit
