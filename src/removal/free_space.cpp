@@ -116,24 +116,6 @@ void FreeSpace::markHits(const RegionMap& map, const ScanTrace& trace, const std
   });
 }
 
-/// What has come to stay: void or open cells that are hit again and again, and that no ray crosses any more.
-CellGrid FreeSpace::stayed() {
-  CellGrid stayed(ends_.x0(), ends_.y0(), ends_.z0(), ends_.side());
-  forEachTile([&](Tile& tile, int tx, int ty) {
-    for (int i = 0; i < 64; ++i) {
-      const std::uint64_t ends = ends_.word(tx + i % 8, ty + i / 8);
-      if (ends == 0) continue;
-      const CellColumn& column = tile.columns[static_cast<std::size_t>(i)];
-      Counters<8>& hits = tile.hits[static_cast<std::size_t>(i)];
-      hits.reset(ends & column.crossed.atLeast(1));
-      hits.countUp(ends);
-      stayed.word(tx + i % 8, ty + i / 8) =
-          ends & (column.is_void | column.is_open) & hits.atLeast(static_cast<unsigned>(config_.tau_r));
-    }
-  });
-  return stayed;
-}
-
 /// These cells and those around them are void no longer.
 void FreeSpace::fill(const CellGrid& cells) {
   if (cells.empty()) return;
@@ -153,14 +135,22 @@ void FreeSpace::fill(const CellGrid& cells) {
   }
 }
 
-/// Takes the scan's cells into the tiles' counters, and finds the void.
+/// Takes the scan's cells into the tiles' counters, finds the void, and what has come to stay there: cells that are hit
+/// again and again, and that no ray crosses any more.
 void FreeSpace::update() {
   const CellGrid clear = crossed_.eroded(), open = crossed_.erodedToOneSide();
-  fill(stayed());
+  CellGrid stayed(ends_.x0(), ends_.y0(), ends_.z0(), ends_.side());
   forEachTile([&](Tile& tile, int tx, int ty) {
     for (int i = 0; i < 64; ++i) {
       const int cx = tx + i % 8, cy = ty + i / 8;
       CellColumn& column = tile.columns[static_cast<std::size_t>(i)];
+      if (const std::uint64_t ends = ends_.word(cx, cy); ends != 0) {
+        Counters<8>& hits = tile.hits[static_cast<std::size_t>(i)];
+        hits.reset(ends & column.crossed.atLeast(1));
+        hits.countUp(ends);
+        stayed.word(cx, cy) =
+            ends & (column.is_void | column.is_open) & hits.atLeast(static_cast<unsigned>(config_.tau_r));
+      }
       column.crossed.reset(hit_.word(cx, cy));
       column.crossed.countUp(crossed_.word(cx, cy));
       const std::uint64_t often = column.crossed.atLeast(static_cast<unsigned>(config_.tau_f));
@@ -168,6 +158,7 @@ void FreeSpace::update() {
       column.is_open |= open.word(cx, cy) & often;
     }
   });
+  fill(stayed);
 }
 
 void FreeSpace::forgetBeyond(const OcTreeKey& centre, int distance) {

@@ -85,7 +85,6 @@ class FreeSpace {
   template <class F>
   void forEachTile(F&& visit);
   void markHits(const RegionMap& map, const ScanTrace& trace, const std::array<float, 3>& from, VoidRays& rays);
-  CellGrid stayed();
   void fill(const CellGrid& cells);
   void update();
 

@@ -87,6 +87,8 @@ struct Region {
     octants[octant].occupied |= new_cubes;
     cubes = static_cast<std::uint16_t>(cubes + std::popcount(new_cubes));
   }
+  /// Notes the doubtful cubes of an octant, if there are any.
+  void noteDoubts(std::size_t octant);
   /// Takes cubes of an octant that are there out of the map.
   void remove(std::size_t octant, std::uint64_t old_cubes);
 };
@@ -95,6 +97,7 @@ struct Region {
 struct Column {
   key_type x = 0, y = 0;         ///< O_r >> bits
   int h_min = 0, h_max = -1;     ///< keys of the lowest and the highest cube; none: max < min
+  bool doubtful = false;         ///< so may one of its regions be
   bool stale = false;            ///< cubes were removed since h_min and h_max were computed
   Region* base = nullptr;        ///< where R-GPE looks for ground: the lowest region with a cube
   std::vector<Region*> regions;  ///< by z, ascending

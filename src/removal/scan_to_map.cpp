@@ -89,14 +89,17 @@ class ScanToMapRemoval {
     const auto reach = static_cast<float>(config_.context.max_range / resolution_);
     const auto& sensor = scan_.view.origin();
     const auto interval = static_cast<std::uint32_t>(config_.evidence.interval);
+    const auto doubtful_interval = static_cast<std::uint32_t>(config_.evidence.doubtful_interval);
     const auto isDue = [&](const Column& column) {
-      if ((column.x + column.y + look_.scan) % interval != 0) return false;
+      const std::uint32_t turn = column.x + column.y + look_.scan;
+      if (turn % interval != 0 && !(column.doubtful && turn % doubtful_interval == 0)) return false;
       const float dx = static_cast<float>(column.x << map_.bits()) - sensor[0];
       const float dy = static_cast<float>(column.y << map_.bits()) - sensor[1];
       return dx * dx + dy * dy <= reach * reach;
     };
     map_.forEachColumn(isDue, [&](Column& column) {
       if (std::binary_search(candidates.begin(), candidates.end(), &column)) return;
+      column.doubtful = false;
       for (Region* region : column.regions) lookAt(*region, config_.evidence.misses);
     });
   }
@@ -107,7 +110,7 @@ class ScanToMapRemoval {
     region.doubtful = false;
     for (std::size_t o = 0; o < region.octants.size(); ++o) {
       const Octant& octant = region.octants[o];
-      region.doubtful = region.doubtful || octant.doubted != 0;
+      region.noteDoubts(o);
       std::uint64_t cubes = octant.occupied & ~octant.safe;
       // With nothing but the ratio to go by, all that is near the ground has to stay.
       if (scan_.visibility == nullptr) cubes &= ~octant.ground;
@@ -151,7 +154,7 @@ class ScanToMapRemoval {
       forEachBit(filled, [&](int bit) { counts[static_cast<std::size_t>(bit)].misses = 0; });
       Octant& octant = region.octants[doubt.octant];
       octant.doubted = (octant.doubted & ~filled) | through;
-      region.doubtful = region.doubtful || octant.doubted != 0;
+      region.noteDoubts(doubt.octant);
       if (through == 0) continue;
       if (doubt.misses == 1) result_.is_protected -= static_cast<std::size_t>(std::popcount(through));
       doubt.rest = doubt.cubes & ~through & ~filled;

@@ -8,7 +8,17 @@
 namespace rhmap {
 namespace {
 
-constexpr std::size_t kAhead = 64;  // points that are looked up together
+constexpr std::size_t kAhead = 32;  // octants that are looked up together
+
+/// Points that follow each other in the scan and fall in one octant.
+struct Run {
+  OcTreeKey cube;               // that of the first
+  std::uint64_t cubes = 0;      // of the octant
+  int z_min = 1 << 16, z_max = -1;  // of the points that contexts reach, in keys
+  int points = 0;
+  std::uint64_t name = 0;       // of the region
+  Region* region = nullptr;
+};
 
 /// The first hit of this scan in a region.
 void touch(Region& region, ScanTrace& trace) {
@@ -39,31 +49,49 @@ void insert(Region& region, std::size_t o, int firm) {
 
 /// H{max,min} with what a scan has added to a region.
 void raiseHeights(const RegionMap& map, const Region& region) {
-  Column& column = *region.column;
+  int low = 1 << 16, high = -1;
   forEachBit(region.hit_octants, [&](int o) {
     const auto number = static_cast<std::size_t>(o);
     const std::uint64_t fresh = region.octants[number].fresh;
     if (fresh == 0) return;
-    const int corner = map.cornerOf(region, number)[2];
-    int low = 0, high = 3;
-    while ((fresh & layerOf(low)) == 0) ++low;
-    while ((fresh & layerOf(high)) == 0) --high;
-    const bool empty = column.h_max < column.h_min;
-    column.h_min = empty ? corner + low : std::min(column.h_min, corner + low);
-    column.h_max = empty ? corner + high : std::max(column.h_max, corner + high);
+    int bottom = map.cornerOf(region, number)[2], top = bottom + 3;
+    for (int z = 0; (fresh & layerOf(z)) == 0; ++z) ++bottom;
+    for (int z = 3; (fresh & layerOf(z)) == 0; --z) --top;
+    low = std::min(low, bottom), high = std::max(high, top);
   });
+  if (high < 0) return;
+  Column& column = *region.column;
+  const bool empty = column.h_max < column.h_min;
+  column.h_min = empty ? low : std::min(column.h_min, low);
+  column.h_max = empty ? high : std::max(column.h_max, high);
 }
 
-/// A point of the scan at this height, in keys. `index`: the column's place in the trace, below 0 if it has none yet.
-void addToColumn(Column& column, int z, std::int32_t& index, ScanTrace& trace) {
+/// The next run of a scan, from point `k` on, which moves on.
+Run nextRun(const RegionMap& map, const ScanPoints& points, float reach, std::size_t& k) {
+  Run run{.cube = points.cube[k]};
+  for (; k < points.size(); ++k) {
+    const OcTreeKey& cube = points.cube[k];
+    if (((cube[0] ^ run.cube[0]) | (cube[1] ^ run.cube[1]) | (cube[2] ^ run.cube[2])) >> 2 != 0) break;
+    run.cubes |= maskOf(bitOf(cube));
+    if (!(points.range[k] <= reach)) continue;
+    run.z_min = std::min(run.z_min, int{cube[2]});
+    run.z_max = std::max(run.z_max, int{cube[2]});
+    ++run.points;
+  }
+  run.name = map.nameOf(run.cube);
+  return run;
+}
+
+/// `index`: the column's place in the trace, below 0 if it has none yet.
+void addToColumn(Column& column, const Run& run, std::int32_t& index, ScanTrace& trace) {
   if (index < 0) {
     index = static_cast<std::int32_t>(trace.columns.size());
     trace.columns.push_back({.column = &column});
   }
   ScanColumn& in = trace.columns[static_cast<std::size_t>(index)];
-  in.z_min = std::min(in.z_min, z);
-  in.z_max = std::max(in.z_max, z);
-  ++in.points;
+  in.z_min = std::min(in.z_min, run.z_min);
+  in.z_max = std::max(in.z_max, run.z_max);
+  in.points += run.points;
 }
 
 }  // namespace
@@ -81,39 +109,34 @@ ScanTrace traceScan(RegionMap& map, const ScanPoints& points, const OcTreeKey& s
   ColumnGrid grid(map, sensor, config.reach, config.resolution);
   const auto reach = static_cast<float>(config.reach);
 
-  std::array<std::uint64_t, kAhead> names;
-  std::array<Region*, kAhead> regions;
-  for (std::size_t first = 0; first < points.size(); first += kAhead) {
-    const std::size_t last = std::min(first + kAhead, points.size());
-    // The map is larger than the caches: ask for all that a few points need before it is read.
-    for (std::size_t k = first; k < last; ++k) {
-      names[k - first] = map.nameOf(points.cube[k]);
-      if (k == first || names[k - first] != names[k - first - 1]) map.prefetch(names[k - first]);
+  std::array<Run, kAhead> runs;
+  for (std::size_t k = 0; k < points.size();) {
+    // The map is larger than the caches: ask for all that a few octants need before it is read.
+    std::size_t n = 0;
+    for (; n < kAhead && k < points.size(); ++n) {
+      runs[n] = nextRun(map, points, reach, k);
+      if (n == 0 || runs[n].name != runs[n - 1].name) map.prefetch(runs[n].name);
     }
-    for (std::size_t k = first; k < last; ++k) {
-      Region*& region = regions[k - first];
-      if (k > first && names[k - first] == names[k - first - 1]) {
-        region = regions[k - first - 1];
+    for (std::size_t i = 0; i < n; ++i) {
+      Region*& region = runs[i].region;
+      if (i > 0 && runs[i].name == runs[i - 1].name) {
+        region = runs[i - 1].region;
         continue;
       }
-      region = map.find(names[k - first]);
-      if (region == nullptr) region = &map.getOrCreate(points.cube[k]);
+      region = map.find(runs[i].name);
+      if (region == nullptr) region = &map.getOrCreate(runs[i].cube);
       __builtin_prefetch(region);
     }
-    for (std::size_t k = first; k < last; ++k) {
-      const Region& region = *regions[k - first];
-      const std::size_t o = map.octantOf(points.cube[k]);
-      __builtin_prefetch(&region.octants[o]);
-    }
-    for (std::size_t k = first; k < last; ++k) {
-      const OcTreeKey& cube = points.cube[k];
-      Region* region = regions[k - first];
-      if (region->scan != scan) touch(*region, trace);
-      if (points.range[k] <= reach)
-        if (std::int32_t* index = grid.at(region->x, region->y)) addToColumn(*region->column, cube[2], *index, trace);
-      const std::size_t o = map.octantOf(cube);
-      region->octants[o].hit |= maskOf(bitOf(cube));
-      region->hit_octants |= std::uint64_t{1} << o;
+    for (std::size_t i = 0; i < n; ++i) __builtin_prefetch(&runs[i].region->octants[map.octantOf(runs[i].cube)]);
+    for (std::size_t i = 0; i < n; ++i) {
+      const Run& run = runs[i];
+      Region& region = *run.region;
+      if (region.scan != scan) touch(region, trace);
+      if (run.points > 0)
+        if (std::int32_t* index = grid.at(region.x, region.y)) addToColumn(*region.column, run, *index, trace);
+      const std::size_t o = map.octantOf(run.cube);
+      region.octants[o].hit |= run.cubes;
+      region.hit_octants |= std::uint64_t{1} << o;
     }
   }
   if (config.insert) {

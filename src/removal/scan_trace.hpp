@@ -33,6 +33,7 @@ struct ScanTrace {
       if (i + 2 * kAhead < regions.size()) __builtin_prefetch(regions[i + 2 * kAhead]);
       if (i + kAhead < regions.size()) {
         const Region& soon = *regions[i + kAhead];
+        if (kCounts) __builtin_prefetch(soon.column);
         forEachBit(soon.hit_octants, [&](int o) {
           const auto number = static_cast<std::size_t>(o);
           __builtin_prefetch(&soon.octants[number]);

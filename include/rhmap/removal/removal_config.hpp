@@ -59,7 +59,8 @@ struct VisibilityConfig {
 /// When a cube goes that scans have seen through.
 struct EvidenceConfig {
   bool everywhere = true;       ///< all cubes in sight are looked at, not only those of candidates by ratio
-  int interval = 2;             ///< each of these in one of so many scans
+  int interval = 4;             ///< each of these in one of so many scans,
+  int doubtful_interval = 2;    ///< or so many, if scans have seen through cubes beside it
   int misses = 2;               ///< looks in a row that must have seen through a cube; a candidate's goes at the first
   double share = 0.85;          ///< of the cubes around, doubted and firm ones, so many must be doubted
   int sure_misses = 6;          ///< after so many looks in a row,
