@@ -97,8 +97,12 @@ void GroundEstimation::setBase(Column& column, Region* lowest) const {
   for (Region* region : column.regions) {
     region->fitted = false;
     region->at_fit = 0;
-    region->loose = true;
-    for (Octant& octant : region->octants) octant.ground = octant.safe = 0;
+    region->loose_octants = 0;
+    for (std::size_t o = 0; o < region->octants.size(); ++o) {
+      Octant& octant = region->octants[o];
+      octant.ground = octant.safe = 0;
+      region->loose_octants |= std::uint64_t{octant.occupied != 0} << o;
+    }
   }
   column.base = lowest;
 }
@@ -172,7 +176,7 @@ void GroundEstimation::mark(const RegionMap& map, const Column& column, Region& 
       if (beside != nullptr) consider(beside->base);
     }
   }
-  std::uint64_t loose = 0;
+  region.loose_octants = 0;
   for (std::size_t o = 0; o < region.octants.size(); ++o) {
     Octant& octant = region.octants[o];
     const std::uint64_t which = only_fresh ? octant.fresh & octant.occupied : octant.occupied;
@@ -190,9 +194,8 @@ void GroundEstimation::mark(const RegionMap& map, const Column& column, Region& 
     });
     octant.ground = (octant.ground & ~which) | ground;
     octant.safe = (octant.safe & ~which) | (ground & safe);
-    loose |= octant.occupied & ~octant.safe;
+    region.loose_octants |= std::uint64_t{(octant.occupied & ~octant.safe) != 0} << o;
   }
-  region.loose = loose != 0;
 }
 
 }  // namespace rhmap

@@ -17,10 +17,6 @@ constexpr std::size_t kRegionBytes = (sizeof(Region) + alignof(Octant) - 1) / al
 
 }  // namespace
 
-void Region::noteDoubts(std::size_t octant) {
-  if (octants[octant].doubted != 0) doubtful = column->doubtful = true;
-}
-
 void Region::remove(std::size_t octant, std::uint64_t old_cubes) {
   Octant& from = octants[octant];
   from.occupied &= ~old_cubes;

@@ -67,10 +67,10 @@ struct Region {
   std::uint16_t cubes = 0;       ///< in the map
   std::uint16_t at_fit = 0;      ///< cubes at the last try to fit a plane
   bool fitted = false;           ///< `plane` is the ground's
-  bool loose = true;             ///< there may be cubes that are not safe
   bool doubtful = false;         ///< there may be cubes that are doubted
   Plane plane;
-  std::uint64_t hit_octants = 0;  ///< those that the scan has hit
+  std::uint64_t hit_octants = 0;    ///< those that the scan has hit
+  std::uint64_t loose_octants = 0;  ///< those that may have cubes that are not safe
   Column* column = nullptr;       ///< the one that it stands in
   std::span<Octant> octants;      ///< in Morton order
   std::span<OctantCounts> counts;
@@ -85,6 +85,7 @@ struct Region {
   /// Puts cubes of an octant that are not there yet into the map.
   void add(std::size_t octant, std::uint64_t new_cubes) {
     octants[octant].occupied |= new_cubes;
+    loose_octants |= std::uint64_t{new_cubes != 0} << octant;
     cubes = static_cast<std::uint16_t>(cubes + std::popcount(new_cubes));
   }
   /// Notes the doubtful cubes of an octant, if there are any.
@@ -109,6 +110,10 @@ struct Column {
     return nullptr;
   }
 };
+
+inline void Region::noteDoubts(std::size_t octant) {
+  if (octants[octant].doubted != 0) doubtful = column->doubtful = true;
+}
 
 /// Bits 0 to 3 of a key, three places apart.
 inline constexpr std::array<std::uint16_t, 16> kSpread = [] {

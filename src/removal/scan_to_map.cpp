@@ -105,22 +105,25 @@ class ScanToMapRemoval {
   }
 
   void lookAt(Region& region, int misses) {
-    const bool is_candidate = misses == 1;
-    if (!is_candidate && (!region.loose || (!region.doubtful && isHidden(region)))) return;
+    if (misses == 1) {
+      result_.is_protected += region.cubes;
+    } else if (region.loose_octants == 0 || (!region.doubtful && isHidden(region))) {
+      return;
+    }
     region.doubtful = false;
-    for (std::size_t o = 0; o < region.octants.size(); ++o) {
+    forEachBit(region.loose_octants, [&](int number) {
+      const auto o = static_cast<std::size_t>(number);
       const Octant& octant = region.octants[o];
       region.noteDoubts(o);
       std::uint64_t cubes = octant.occupied & ~octant.safe;
       // With nothing but the ratio to go by, all that is near the ground has to stay.
       if (scan_.visibility == nullptr) cubes &= ~octant.ground;
       if (look_.protect && region.scan == look_.scan) cubes &= ~octant.hit;
-      if (is_candidate) result_.is_protected += static_cast<std::size_t>(std::popcount(octant.occupied));
       const OcTreeKey corner = map_.cornerOf(region, o);
-      if (cubes == 0 || (octant.doubted == 0 && isHidden(corner, 4))) continue;
+      if (cubes == 0 || (octant.doubted == 0 && isHidden(corner, 4))) return;
       doubts_.push_back({&region, o, cubes, 0, misses});
       places_.push_back({corner, cubes});
-    }
+    });
   }
 
   bool isHidden(const Region& region) const { return isHidden(map_.cornerOf(region, 0), map_.size()); }

@@ -44,7 +44,6 @@ void insert(Region& region, std::size_t o, int firm) {
     octant.firm |= std::uint64_t{of.hits >= firm} << bit;
   });
   region.add(o, octant.fresh);
-  region.loose = region.loose || octant.fresh != 0;
 }
 
 /// H{max,min} with what a scan has added to a region.
