@@ -79,8 +79,12 @@ void FreeSpace::observe(const RegionMap& map, const ScanTrace& trace, const std:
   openWindow(cell);
   VoidRays rays;
   markHits(map, trace, from, rays);
-  followRays(from, rays, hit_, crossed_);
-  update();
+  if (trace.scan % static_cast<std::uint32_t>(config_.interval) == 0) {
+    followRays(from, rays, hit_, crossed_);
+    update();
+  } else {
+    forgetHit();
+  }
 }
 
 /// The hit cells, with one ray to each.
@@ -133,6 +137,16 @@ void FreeSpace::fill(const CellGrid& cells) {
       }
     }
   }
+}
+
+/// Where something is, the count of scans that have crossed begins again.
+void FreeSpace::forgetHit() {
+  forEachTile([&](Tile& tile, int tx, int ty) {
+    for (int i = 0; i < 64; ++i) {
+      const std::uint64_t hit = hit_.word(tx + i % 8, ty + i / 8);
+      if (hit != 0) tile.columns[static_cast<std::size_t>(i)].crossed.reset(hit);
+    }
+  });
 }
 
 /// Takes the scan's cells into the tiles' counters, finds the void, and what has come to stay there: cells that are hit

@@ -63,14 +63,14 @@ class FreeSpace {
   struct CellColumn {
     std::uint64_t is_void = 0;
     std::uint64_t is_open = 0;  // void but for one side
-    Counters<3> crossed;        // scans since the last hit
+    Counters<3> crossed;        // followed scans since the last hit
   };
   /// 8 x 8 columns of cells; what is kept from scan to scan.
   struct Tile {
     int x, y;  // of the first cell, / 8
     int z0;    // of the lowest cell
     std::array<CellColumn, 64> columns{};
-    std::array<Counters<8>, 64> hits{};  // scans that have hit the cell since a ray crossed it
+    std::array<Counters<8>, 64> hits{};  // followed scans that have hit the cell since a ray crossed it
 
     void moveTo(int z);
   };
@@ -86,6 +86,7 @@ class FreeSpace {
   void forEachTile(F&& visit);
   void markHits(const RegionMap& map, const ScanTrace& trace, const std::array<float, 3>& from, VoidRays& rays);
   void fill(const CellGrid& cells);
+  void forgetHit();
   void update();
 
   VoidConfig config_;

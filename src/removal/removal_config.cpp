@@ -114,6 +114,7 @@ void validate(const RemovalConfig& c) {
   length("free_space.cell", c.free_space.cell);
   between(1e-6, 200, "free_space.max_range", c.free_space.max_range, "above 0 and up to 200 m");
   atLeast0("free_space.surface", c.free_space.surface);
+  atLeast1("free_space.interval", c.free_space.interval);
   between(1, 7, "free_space.tau_f", c.free_space.tau_f, "between 1 and 7");
   atLeast0("free_space.least_new", c.free_space.least_new);
   between(1, 255, "free_space.tau_r", c.free_space.tau_r, "between 1 and 255");

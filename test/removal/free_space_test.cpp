@@ -63,6 +63,27 @@ TEST(FreeSpace, IsVoidAfterTauFScansAwayFromAllWalls) {
   EXPECT_FALSE(hall.isVoid(3, 0.5, -1.9));  // on the floor
 }
 
+TEST(FreeSpace, FollowsTheRaysOfEverySoManyScans) {
+  for (const int interval : {1, 2, 3}) {
+    Hall hall({.interval = interval, .tau_f = 2});
+    for (int i = 0; i < 2 * interval - 1; ++i) hall.scan();
+    EXPECT_FALSE(hall.isVoid(3, 0.5, 0));
+    hall.scan();
+    EXPECT_TRUE(hall.isVoid(3, 0.5, 0));
+  }
+}
+
+TEST(FreeSpace, IsNotVoidWhereAnyScanHasJustHitSomething) {
+  Hall hall({.interval = 2, .tau_f = 3});
+  for (int i = 0; i < 4; ++i) hall.scan();
+  hall.scan(3);  // whose rays are not followed
+  hall.scan();
+  EXPECT_TRUE(hall.isVoid(-3, 0.5, 0));
+  EXPECT_FALSE(hall.isVoid(3, 0, 0));
+  for (int i = 0; i < 4; ++i) hall.scan();
+  EXPECT_TRUE(hall.isVoid(3, 0, 0));
+}
+
 TEST(FreeSpace, IsNotVoidWhereSomethingStandsAllTheTime) {
   Hall hall;
   for (int i = 0; i < 8; ++i) hall.scan(3);
@@ -72,7 +93,7 @@ TEST(FreeSpace, IsNotVoidWhereSomethingStandsAllTheTime) {
 }
 
 TEST(FreeSpace, ComesBackWhenSomethingStays) {
-  Hall hall({.tau_r = 10});
+  Hall hall({.interval = 1, .tau_r = 10});
   for (int i = 0; i < 6; ++i) hall.scan();
   EXPECT_TRUE(hall.isVoid(3, 0, 0));
   for (int i = 0; i < 9; ++i) hall.scan(3);

@@ -160,6 +160,7 @@ TEST(MovingHits, ThatStayComeIntoTheMap) {
 TEST(MovingHits, AreNoneOfWhatHasBeenHitManyTimes) {
   RemovalConfig config;
   config.look_back.enabled = false;
+  config.free_space.interval = 1;
   config.free_space.tau_f = 7;
   config.free_space.known = 3;
   for (const int before : {2, 4}) {  // scans of the box before its place is void
