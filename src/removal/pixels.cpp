@@ -43,13 +43,15 @@ HWY_INLINE void pixelsOfLanes(const Projection& projection, const float* HWY_RES
   if (ranges != nullptr) hn::StoreU(hn::Sqrt(hn::Add(squared, hn::Mul(vz, vz))), f, ranges);
   const auto level = hn::Sqrt(squared);
   const auto below = hn::Sub(hn::Set(f, projection.top), atan2(vz, level));
-  const auto row = hn::Add(hn::Mul(below, hn::Set(f, projection.rowsPerRadian())), hn::Set(f, 0.5F));
+  const auto step = hn::Add(hn::Mul(below, hn::Set(f, projection.stepsPerRadian())), hn::Set(f, 0.5F));
   const auto turn = hn::Add(hn::Mul(atan2(vy, vx), hn::Set(f, 0.5F / kPi)), hn::Set(f, 0.5F));
   const auto columns = hn::Set(i, projection.columns);
   auto column = hn::ConvertTo(i, hn::Mul(turn, hn::Set(f, static_cast<float>(projection.columns))));
   column = hn::IfThenElse(hn::Lt(column, columns), column, hn::Sub(column, columns));
-  const auto inside = hn::And(hn::Ge(row, hn::Zero(f)), hn::Lt(row, hn::Set(f, static_cast<float>(projection.rows))));
-  const auto pixel = hn::Add(hn::Mul(hn::ConvertTo(i, row), columns), column);
+  const auto inside =
+      hn::And(hn::Ge(step, hn::Zero(f)), hn::Lt(step, hn::Set(f, static_cast<float>(projection.steps()))));
+  const auto row = hn::GatherIndex(i, projection.row.data(), hn::ConvertTo(i, hn::IfThenElseZero(inside, step)));
+  const auto pixel = hn::Add(hn::Mul(row, columns), column);
   hn::StoreU(hn::IfThenElse(hn::RebindMask(i, inside), pixel, hn::Set(i, -1)), i, pixels);
 }
 

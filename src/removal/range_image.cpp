@@ -2,6 +2,7 @@
 #include "range_image.hpp"
 
 #include <algorithm>
+#include <numeric>
 
 #include "pixels.hpp"
 
@@ -10,6 +11,7 @@ namespace {
 
 constexpr int kSectors = 1800;        // 0.2 degrees: about what one shot of all beams covers
 constexpr float kSameBeam = 0.0012F;  // [rad]; two points of a sector that are nearer in elevation are of one beam
+constexpr int kFewest = 4;            // fewer points in a step are stray ones
 constexpr float kDegree = kPi / 180;
 
 /// The median step in elevation between neighbouring beams [rad]; 0 if there are too few points to tell.
@@ -30,32 +32,57 @@ float beamPitch(const ScanPoints& scan, const std::vector<float>& elevation) {
   return steps[steps.size() / 2];
 }
 
+/// Steps without points, between beams that are farther apart than others, go to the nearest row that has some.
+void joinEmptySteps(Projection& projection, const ScanPoints& scan) {
+  std::vector<int> points(projection.row.size(), 0);
+  for (std::size_t k = 0; k < scan.size(); ++k) {
+    const float step = projection.stepOf(scan.x[k], scan.y[k], scan.z[k]);
+    if (step >= 0 && step < static_cast<float>(projection.steps())) ++points[static_cast<std::size_t>(step)];
+  }
+  std::vector<std::size_t> beams;
+  for (std::size_t step = 0; step < points.size(); ++step)
+    if (points[step] >= kFewest) beams.push_back(step);
+  if (beams.size() < 2) return;
+  std::size_t nearest = 0;
+  for (std::size_t step = 0; step < points.size(); ++step) {
+    while (nearest + 1 < beams.size() && 2 * step > beams[nearest] + beams[nearest + 1]) ++nearest;
+    projection.row[step] = static_cast<std::int32_t>(nearest);
+  }
+  projection.rows = static_cast<int>(beams.size());
+}
+
 }  // namespace
 
+Projection evenProjection(int rows, int columns, float top, float bottom) {
+  Projection projection{.rows = rows, .columns = columns, .top = top, .bottom = bottom, .row = {}};
+  projection.row.resize(static_cast<std::size_t>(rows));
+  std::iota(projection.row.begin(), projection.row.end(), 0);
+  return projection;
+}
+
 Projection measureProjection(const RangeImageConfig& config, const ScanPoints& scan) {
-  Projection projection{.rows = config.rows,
-                        .columns = config.columns,
-                        .top = static_cast<float>(config.fov_up) * kDegree,
-                        .bottom = static_cast<float>(config.fov_down) * kDegree};
-  if (config.fov_up > config.fov_down && config.rows > 0) return projection;
+  float top = static_cast<float>(config.fov_up) * kDegree, bottom = static_cast<float>(config.fov_down) * kDegree;
+  const bool has_view = config.fov_up > config.fov_down;
+  if (has_view && config.rows > 0) return evenProjection(config.rows, config.columns, top, bottom);
 
   std::vector<float> elevation(scan.size());
   for (std::size_t k = 0; k < scan.size(); ++k)
     elevation[k] = fastAtan2(scan.z[k], std::sqrt(scan.x[k] * scan.x[k] + scan.y[k] * scan.y[k]));
-  if (!(config.fov_up > config.fov_down)) {
+  if (!has_view) {
     // A few stray points must not stretch the image.
     std::vector<float> sorted = elevation;
     std::sort(sorted.begin(), sorted.end());
     const std::size_t stray = sorted.size() / 2000;
-    projection.bottom = sorted.empty() ? -kPi / 4 : sorted[stray];
-    projection.top = sorted.empty() ? kPi / 4 : sorted[sorted.size() - 1 - stray];
-    if (!(projection.top - projection.bottom > kDegree)) projection.top = projection.bottom + kDegree;
+    bottom = sorted.empty() ? -kPi / 4 : sorted[stray];
+    top = sorted.empty() ? kPi / 4 : sorted[sorted.size() - 1 - stray];
+    if (!(top - bottom > kDegree)) top = bottom + kDegree;
   }
-  if (config.rows == 0) {
-    const float pitch = beamPitch(scan, elevation);
-    const float rows = pitch > 0 ? std::round((projection.top - projection.bottom) / pitch) + 1 : 64;
-    projection.rows = static_cast<int>(std::clamp(rows, 8.0F, 256.0F));
-  }
+  if (config.rows > 0) return evenProjection(config.rows, config.columns, top, bottom);
+  const float pitch = beamPitch(scan, elevation);
+  const float steps = pitch > 0 ? std::round((top - bottom) / pitch) + 1 : 64;
+  Projection projection =
+      evenProjection(static_cast<int>(std::clamp(steps, 8.0F, 256.0F)), config.columns, top, bottom);
+  joinEmptySteps(projection, scan);
   return projection;
 }
 

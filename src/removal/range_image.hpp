@@ -12,15 +12,18 @@
 
 namespace rhmap {
 
-/// How a spinning LiDAR's directions become pixels: m rows of equal elevation from the top down, n columns of azimuth.
+/// How a spinning LiDAR's directions become pixels: n columns of azimuth, and m rows, one a beam, from the top down.
+/// Beams need not be equally far apart: each of many equal steps of elevation belongs to the row whose beam is nearest.
 struct Projection {
   int rows = 0, columns = 0;
-  float top = 0, bottom = 0;  ///< elevations of the first and the last row's middle [rad]
+  float top = 0, bottom = 0;      ///< elevations of the first and the last step's middle [rad]
+  std::vector<std::int32_t> row;  ///< of each step of elevation, never less than that of the step before
 
-  float rowsPerRadian() const { return static_cast<float>(rows - 1) / (top - bottom); }
-  /// May be outside of 0 ... rows - 1.
-  float rowOf(float x, float y, float z) const {
-    return (top - fastAtan2(z, std::sqrt(x * x + y * y))) * rowsPerRadian() + 0.5F;
+  int steps() const { return static_cast<int>(row.size()); }
+  float stepsPerRadian() const { return static_cast<float>(steps() - 1) / (top - bottom); }
+  /// May be outside of 0 ... steps() - 1.
+  float stepOf(float x, float y, float z) const {
+    return (top - fastAtan2(z, std::sqrt(x * x + y * y))) * stepsPerRadian() + 0.5F;
   }
   int columnOf(float x, float y) const {
     const float turn = fastAtan2(y, x) * (0.5F / kPi) + 0.5F;
@@ -29,8 +32,11 @@ struct Projection {
   }
 };
 
+/// Rows that are as many equal steps of elevation.
+Projection evenProjection(int rows, int columns, float top, float bottom);
+
 /// What the config says, and for what it does not say what the scan shows: the field of view is that of its points, the
-/// rows are as far apart as points of one azimuth mostly are.
+/// steps are as far apart as points of one azimuth mostly are, and rows are the steps that have points.
 Projection measureProjection(const RangeImageConfig& config, const ScanPoints& scan);
 
 /// I^B_{m x n}: the nearest range of each pixel [m].

@@ -48,7 +48,8 @@ Visibility::Visibility(const RangeImage& image, const ScanPoints& scan, const Vi
       before_(static_cast<float>(config.before)),
       surface_(static_cast<float>(config.surface)),
       surface_share_(static_cast<float>(config.surface_share)),
-      edge_(static_cast<float>(1 + config.edge_share)) {
+      edge_(static_cast<float>(1 + config.edge_share)),
+      least_up_(config.window) {
   for (std::size_t i = 0; i < points_.size(); ++i) {
     if (const std::int32_t k = image.points()[i]; k >= 0) {
       const auto at = static_cast<std::size_t>(k);
@@ -56,14 +57,20 @@ Visibility::Visibility(const RangeImage& image, const ScanPoints& scan, const Vi
     }
   }
 
+  middle_.assign(static_cast<std::size_t>(projection_.rows), 0);
+  for (int i = 0; i < projection_.rows; ++i) {
+    const auto [first, last] = std::equal_range(projection_.row.begin(), projection_.row.end(), i);
+    middle_[static_cast<std::size_t>(i)] =
+        static_cast<int>(first - projection_.row.begin() + (last - 1 - projection_.row.begin())) / 2;
+  }
   const double radius = std::min(cube * std::sqrt(3.0) / 2, config.ball);
-  const double rows = double(projection_.rowsPerRadian()), columns = projection_.columns / (2 * double(kPi));
+  const double steps = double(projection_.stepsPerRadian()), columns = projection_.columns / (2 * double(kPi));
   const auto pixels = [&](double count) {
     return static_cast<std::int8_t>(std::clamp(static_cast<int>(std::ceil(count)), config.window, 64));
   };
-  for (int step = 0; step < kFarthestStep * double(kStepsPerMetre); ++step) {
-    const double angle = radius / std::max((step + 0.5) / double(kStepsPerMetre), 1.0);
-    windows_.push_back({pixels(angle * rows), pixels(angle * columns)});
+  for (int near = 0; near < kFarthestStep * double(kStepsPerMetre); ++near) {
+    const double angle = radius / std::max((near + 0.5) / double(kStepsPerMetre), 1.0);
+    windows_.push_back({pixels(angle * steps), pixels(angle * columns)});
   }
 
   // The farthest of each block, then of blocks twice as large.
@@ -113,7 +120,7 @@ inline Look Visibility::at(const std::array<float, 3>& p, float range, std::int3
   const float centre = ranges_[static_cast<std::size_t>(pixel)];
   if (centre < range - before_) return Look::kUnknown;
   // Above the first row's beam nothing would show a surface that runs on towards the sensor: a ceiling.
-  if (pixel < projection_.columns && centre < range * edge_ && projection_.rowOf(p[0], p[1], p[2]) < kFirstBeam)
+  if (pixel < projection_.columns && centre < range * edge_ && projection_.stepOf(p[0], p[1], p[2]) < kFirstBeam)
     return Look::kUnknown;
   if (centre <= range + behind_) return Look::kFilled;
   return around(p, range, pixel);
@@ -162,13 +169,14 @@ bool Visibility::hides(const std::array<float, 3>& p, float radius) const {
   // The blocks around reach at least a block's width to all sides; a window of pixels comes on top.
   const float level = std::max(std::sqrt(p[0] * p[0] + p[1] * p[1]), 1e-3F);
   const float pixels_per_radian =
-      std::max(projection_.rowsPerRadian(), static_cast<float>(projection_.columns) / (2 * kPi));
+      std::max(projection_.stepsPerRadian(), static_cast<float>(projection_.columns) / (2 * kPi));
   const float reach = 1.1F * radius / level * pixels_per_radian + 1;
   for (const Farthest& farthest : farthest_) {
     if (static_cast<float>(farthest.block) < reach) continue;
-    const float row = std::clamp(projection_.rowOf(p[0], p[1], p[2]), 0.0F, static_cast<float>(projection_.rows - 1));
+    const float step = std::clamp(projection_.stepOf(p[0], p[1], p[2]), 0.0F, static_cast<float>(projection_.steps() - 1));
+    const int row = projection_.row[static_cast<std::size_t>(step)];
     const int block =
-        static_cast<int>(row) / farthest.block * farthest.columns + projection_.columnOf(p[0], p[1]) / farthest.block;
+        row / farthest.block * farthest.columns + projection_.columnOf(p[0], p[1]) / farthest.block;
     return farthest.ranges[static_cast<std::size_t>(block)] <= range - radius + behind_;
   }
   return false;
@@ -178,12 +186,18 @@ Look Visibility::around(const std::array<float, 3>& p, float range, std::int32_t
   const auto centre = static_cast<std::size_t>(pixel);
   const float behind = range + behind_, before = range - before_;
   const int row = pixel / projection_.columns, column = pixel % projection_.columns;
-  const auto step = static_cast<std::size_t>(range * kStepsPerMetre);
-  const Window window = step < windows_.size() ? windows_[step] : windows_.back();
+  const auto near = static_cast<std::size_t>(range * kStepsPerMetre);
+  const Window window = near < windows_.size() ? windows_[near] : windows_.back();
+  const int step = middle_[static_cast<std::size_t>(row)];
+  const auto rowAt = [this](int i) {
+    return projection_.row[static_cast<std::size_t>(std::clamp(i, 0, projection_.steps() - 1))];
+  };
+  const int top = std::max(0, std::min(row - least_up_, rowAt(step - window.up)));
+  const int bottom = std::min(projection_.rows - 1, std::max(row + least_up_, rowAt(step + window.up)));
   const float surface = std::max(surface_, surface_share_ * range);
   const bool empty = ranges_[centre] == RangeImage::kEmpty;
   bool seen = false, clear = true;
-  for (int i = std::max(0, row - window.up); i <= std::min(projection_.rows - 1, row + window.up); ++i) {
+  for (int i = top; i <= bottom; ++i) {
     for (int c = column - window.beside; c <= column + window.beside; ++c) {
       const int j = c < 0 ? c + projection_.columns : c >= projection_.columns ? c - projection_.columns : c;
       const auto at = static_cast<std::size_t>(i * projection_.columns + j);

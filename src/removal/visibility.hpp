@@ -64,12 +64,12 @@ class Visibility {
 
  private:
   struct Window {
-    std::int8_t up, beside;
+    std::int8_t up, beside;  // in steps of elevation and columns
   };
   Look at(const std::array<float, 3>& p, float range, std::int32_t pixel) const;
   Look around(const std::array<float, 3>& p, float range, std::int32_t pixel) const;
 
-  static constexpr float kFirstBeam = 0.75F;  // rows from the image's upper edge; a beam's elevation wavers
+  static constexpr float kFirstBeam = 0.75F;  // steps from the image's upper edge; a beam's elevation wavers
   static constexpr float kStepsPerMetre = 4;
   static constexpr int kSmallestBlock = 4;  // pixels of an edge
   /// The farthest range in blocks of pixels and those around them; 0 where all are empty.
@@ -83,6 +83,8 @@ class Visibility {
   std::vector<float> ranges_;
   std::vector<std::array<float, 3>> points_;  // sensor's frame [m]
   std::vector<Farthest> farthest_;            // blocks of 4, 8, 16 ... pixels
+  int least_up_;                              // rows of a window on each side
+  std::vector<int> middle_;                   // the step in the middle of each row
   std::vector<Window> windows_;               // for cubes so many steps away; beyond: the last
   float behind_, before_, surface_, surface_share_, edge_;
 };
