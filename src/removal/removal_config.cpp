@@ -96,8 +96,10 @@ void validate(const RemovalConfig& c) {
   atLeast0("context.min_height", c.context.min_height);
   atLeast0("visibility.behind", c.visibility.behind);
   atLeast0("visibility.before", c.visibility.before);
+  length("visibility.aside", c.visibility.aside);
   atLeast0("visibility.surface", c.visibility.surface);
   atLeast0("visibility.surface_share", c.visibility.surface_share);
+  atLeast0("visibility.clearance", c.visibility.clearance);
   atLeast0("visibility.edge_share", c.visibility.edge_share);
   length("visibility.ball", c.visibility.ball);
   between(0, 16, "visibility.window", c.visibility.window, "between 0 and 16");

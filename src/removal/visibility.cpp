@@ -10,18 +10,28 @@ namespace {
 
 constexpr double kFarthestStep = 40;  // [m]; a cube beyond needs no window of its own
 
-float squaredDistanceToSegment(const std::array<float, 3>& p, const std::array<float, 3>& a,
-                               const std::array<float, 3>& b) {
-  std::array<float, 3> d, e;
-  float de = 0, dd = 0;
-  for (std::size_t k = 0; k < 3; ++k) {
-    d[k] = b[k] - a[k], e[k] = p[k] - a[k];
-    de += d[k] * e[k], dd += d[k] * d[k];
-  }
-  const float t = dd > 0 ? std::clamp(de / dd, 0.0F, 1.0F) : 0.0F;
-  float squared = 0;
-  for (std::size_t k = 0; k < 3; ++k) squared += (e[k] - t * d[k]) * (e[k] - t * d[k]);
-  return squared;
+using Vector = std::array<float, 3>;
+
+float dot(const Vector& a, const Vector& b) { return a[0] * b[0] + a[1] * b[1] + a[2] * b[2]; }
+float squared(const Vector& a) { return dot(a, a); }
+Vector minus(const Vector& a, const Vector& b) { return {a[0] - b[0], a[1] - b[1], a[2] - b[2]}; }
+
+float squaredDistanceToSegment(const Vector& p, const Vector& a, const Vector& b) {
+  const Vector d = minus(b, a), e = minus(p, a);
+  const float dd = squared(d), t = dd > 0 ? std::clamp(dot(d, e) / dd, 0.0F, 1.0F) : 0.0F;
+  return squared({e[0] - t * d[0], e[1] - t * d[1], e[2] - t * d[2]});
+}
+
+/// Of the line through a and b from the sensor.
+float squaredDistanceOfLine(const Vector& a, const Vector& b) {
+  const Vector across{a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]};
+  return squared(across) / std::max(squared(minus(b, a)), 1e-9F);
+}
+
+/// Of the ray to `end` from a place.
+float squaredDistanceOfRay(const Vector& p, const Vector& end) {
+  const float along = dot(p, end);
+  return squared(p) - along * along / squared(end);
 }
 
 }  // namespace
@@ -46,8 +56,10 @@ Visibility::Visibility(const RangeImage& image, const ScanPoints& scan, const Vi
       points_(ranges_.size()),
       behind_(static_cast<float>(config.behind)),
       before_(static_cast<float>(config.before)),
+      aside_(static_cast<float>(config.aside)),
       surface_(static_cast<float>(config.surface)),
       surface_share_(static_cast<float>(config.surface_share)),
+      clearance_(static_cast<float>(config.clearance)),
       edge_(static_cast<float>(1 + config.edge_share)),
       least_up_(config.window) {
   for (std::size_t i = 0; i < points_.size(); ++i) {
@@ -173,10 +185,10 @@ bool Visibility::hides(const std::array<float, 3>& p, float radius) const {
   const float reach = 1.1F * radius / level * pixels_per_radian + 1;
   for (const Farthest& farthest : farthest_) {
     if (static_cast<float>(farthest.block) < reach) continue;
-    const float step = std::clamp(projection_.stepOf(p[0], p[1], p[2]), 0.0F, static_cast<float>(projection_.steps() - 1));
+    const float step =
+        std::clamp(projection_.stepOf(p[0], p[1], p[2]), 0.0F, static_cast<float>(projection_.steps() - 1));
     const int row = projection_.row[static_cast<std::size_t>(step)];
-    const int block =
-        row / farthest.block * farthest.columns + projection_.columnOf(p[0], p[1]) / farthest.block;
+    const int block = row / farthest.block * farthest.columns + projection_.columnOf(p[0], p[1]) / farthest.block;
     return farthest.ranges[static_cast<std::size_t>(block)] <= range - radius + behind_;
   }
   return false;
@@ -203,12 +215,17 @@ Look Visibility::around(const std::array<float, 3>& p, float range, std::int32_t
       const auto at = static_cast<std::size_t>(i * projection_.columns + j);
       const float other = ranges_[at];
       if (other > behind) {
-        seen = seen || other < RangeImage::kEmpty;
-        continue;
+        seen = seen || (other < RangeImage::kEmpty && squaredDistanceOfRay(p, points_[at]) <= aside_ * aside_);
+      } else if (other >= before) {
+        return Look::kFilled;
+      } else if (clear) {
+        // Something nearer beside the cube: a surface may run from there to what is seen at the cube's own pixel. But
+        // not from what stands in the next column to what is far behind it: the line between them all but meets the
+        // sensor, and walls are farther away.
+        clear =
+            !empty && ((j != column && squaredDistanceOfLine(points_[at], points_[centre]) < clearance_ * clearance_) ||
+                       squaredDistanceToSegment(p, points_[at], points_[centre]) >= surface * surface);
       }
-      if (other >= before) return Look::kFilled;
-      // Something nearer beside the cube: a surface may run from there to what is seen at the cube's own pixel.
-      clear = clear && !empty && squaredDistanceToSegment(p, points_[at], points_[centre]) >= surface * surface;
     }
   }
   return seen && clear ? Look::kSeenThrough : Look::kUnknown;

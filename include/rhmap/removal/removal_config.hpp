@@ -43,14 +43,16 @@ struct ContextConfig {
   double min_height = 0.5;  ///< columns of the map that are lower are left alone [m]
 };
 
-/// Whether rays of a scan pass through a cube: what is seen in the cube's pixel lies behind it, and what is seen in the
-/// pixels around is not at its place.
+/// Whether rays of a scan pass through a cube: what is seen in the cube's pixel lies behind it, what is seen in the
+/// pixels around is not at its place, and one of these rays comes near enough.
 struct VisibilityConfig {
   bool enabled = true;
   double behind = 0.2;   ///< behind the cube is what is this much farther [m]
   double before = 0.5;   ///< before it, what is this much nearer; in between something is at its place [m]
+  double aside = 0.2;    ///< a ray tells of a cube if it passes this near to its middle [m]
   double surface = 0.2;  ///< no cube is seen through that is this near to the line between two pixels' points [m]
   double surface_share = 0.007;  ///< or this near, as a share of the range: pixels are farther apart there
+  double clearance = 2;          ///< such a line between columns is a wall's if it passes the sensor this far away [m]
   double edge_share = 0.15;      ///< above the first row's beam, behind is what is farther by this share
   double ball = 0.1;             ///< what a scan sees of a cube is the ball around it, up to this radius [m]
   int window = 1;                ///< pixels looked at on each side of the cube's own, more where the cube covers more
