@@ -97,6 +97,7 @@ void validate(const RemovalConfig& c) {
   atLeast0("visibility.behind", c.visibility.behind);
   atLeast0("visibility.before", c.visibility.before);
   length("visibility.aside", c.visibility.aside);
+  atLeast0("visibility.aside_share", c.visibility.aside_share);
   atLeast0("visibility.surface", c.visibility.surface);
   atLeast0("visibility.surface_share", c.visibility.surface_share);
   atLeast0("visibility.clearance", c.visibility.clearance);

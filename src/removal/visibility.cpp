@@ -57,6 +57,7 @@ Visibility::Visibility(const RangeImage& image, const ScanPoints& scan, const Vi
       behind_(static_cast<float>(config.behind)),
       before_(static_cast<float>(config.before)),
       aside_(static_cast<float>(config.aside)),
+      aside_share_(static_cast<float>(config.aside_share)),
       surface_(static_cast<float>(config.surface)),
       surface_share_(static_cast<float>(config.surface_share)),
       clearance_(static_cast<float>(config.clearance)),
@@ -206,7 +207,7 @@ Look Visibility::around(const std::array<float, 3>& p, float range, std::int32_t
   };
   const int top = std::max(0, std::min(row - least_up_, rowAt(step - window.up)));
   const int bottom = std::min(projection_.rows - 1, std::max(row + least_up_, rowAt(step + window.up)));
-  const float surface = std::max(surface_, surface_share_ * range);
+  const float surface = std::max(surface_, surface_share_ * range), aside = std::max(aside_, aside_share_ * range);
   const bool empty = ranges_[centre] == RangeImage::kEmpty;
   bool seen = false, clear = true;
   for (int i = top; i <= bottom; ++i) {
@@ -215,7 +216,7 @@ Look Visibility::around(const std::array<float, 3>& p, float range, std::int32_t
       const auto at = static_cast<std::size_t>(i * projection_.columns + j);
       const float other = ranges_[at];
       if (other > behind) {
-        seen = seen || (other < RangeImage::kEmpty && squaredDistanceOfRay(p, points_[at]) <= aside_ * aside_);
+        seen = seen || (other < RangeImage::kEmpty && squaredDistanceOfRay(p, points_[at]) <= aside * aside);
       } else if (other >= before) {
         return Look::kFilled;
       } else if (clear) {

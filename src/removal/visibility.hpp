@@ -86,7 +86,7 @@ class Visibility {
   int least_up_;                              // rows of a window on each side
   std::vector<int> middle_;                   // the step in the middle of each row
   std::vector<Window> windows_;               // for cubes so many steps away; beyond: the last
-  float behind_, before_, aside_, surface_, surface_share_, clearance_, edge_;
+  float behind_, before_, aside_, aside_share_, surface_, surface_share_, clearance_, edge_;
 };
 
 }  // namespace rhmap

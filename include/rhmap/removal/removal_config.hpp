@@ -47,10 +47,11 @@ struct ContextConfig {
 /// pixels around is not at its place, and one of these rays comes near enough.
 struct VisibilityConfig {
   bool enabled = true;
-  double behind = 0.2;   ///< behind the cube is what is this much farther [m]
-  double before = 0.5;   ///< before it, what is this much nearer; in between something is at its place [m]
-  double aside = 0.2;    ///< a ray tells of a cube if it passes this near to its middle [m]
-  double surface = 0.2;  ///< no cube is seen through that is this near to the line between two pixels' points [m]
+  double behind = 0.2;         ///< behind the cube is what is this much farther [m]
+  double before = 0.5;         ///< before it, what is this much nearer; in between something is at its place [m]
+  double aside = 0.2;          ///< a ray tells of a cube if it passes this near to its middle [m]
+  double aside_share = 0.005;  ///< or this near, as a share of the range
+  double surface = 0.2;        ///< no cube is seen through that is this near to the line between two pixels' points [m]
   double surface_share = 0.007;  ///< or this near, as a share of the range: pixels are farther apart there
   double clearance = 2;          ///< such a line between columns is a wall's if it passes the sensor this far away [m]
   double edge_share = 0.15;      ///< above the first row's beam, behind is what is farther by this share
