@@ -110,6 +110,7 @@ void validate(const RemovalConfig& c) {
   between(1, 255, "evidence.sure_misses", c.evidence.sure_misses, "between 1 and 255");
   between(1, 255, "evidence.firm", c.evidence.firm, "between 1 and 255");
   share("evidence.share", c.evidence.share);
+  atLeast0("evidence.enough", c.evidence.enough);
   atLeast0("evidence.sure_ratio", c.evidence.sure_ratio);
   length("evidence.sure_reach", c.evidence.sure_reach);
   share("evidence.sure_share", c.evidence.sure_share);

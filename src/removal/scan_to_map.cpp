@@ -28,6 +28,7 @@ class ScanToMapRemoval {
         config_(config),
         resolution_(resolution),
         sure_reach_(cubesAround(config.evidence.sure_reach, resolution)),
+        enough_(config.evidence.enough / (resolution * resolution)),
         look_(look),
         result_(result) {}
 
@@ -172,16 +173,17 @@ class ScanToMapRemoval {
     const EvidenceConfig& evidence = config_.evidence;
     for (std::size_t d = 0; d < doubts_.size(); ++d) {
       const Doubt& doubt = doubts_[d];
-      const int fewest = std::min(doubt.misses, evidence.sure_misses);
-      std::uint64_t due = 0, sure = 0;
+      std::uint64_t seen = 0, due = 0, sure = 0;
       forEachBit(doubt.cubes, [&](int bit) {
         const auto [hits, misses] = doubt.region->counts[doubt.octant][static_cast<std::size_t>(bit)];
-        if (misses < fewest || (look_.revert_hits > 0 && hits >= look_.revert_hits)) return;
+        if (look_.revert_hits > 0 && hits >= look_.revert_hits) return;
+        seen |= maskOf(bit);
         if (misses >= doubt.misses) due |= maskOf(bit);
         if (misses >= std::max<double>(evidence.sure_misses, evidence.sure_ratio * hits)) sure |= maskOf(bit);
       });
-      if ((due | sure) == 0) continue;
+      if (seen == 0) continue;
       const Neighbourhood around = doubtedAround(doubt, kFarthestAround);
+      if (around.firm == 0 && around.moving >= enough_) gone[d] |= seen;
       if (around.isMoving(evidence.share)) gone[d] |= due;
       if ((sure & ~gone[d]) != 0 && doubtedAround(doubt, sure_reach_).isMoving(evidence.sure_share)) gone[d] |= sure;
       if (around.firm == 0) gone[d] |= restOf(doubt, gone[d]);
@@ -214,6 +216,7 @@ class ScanToMapRemoval {
   const RemovalConfig& config_;
   double resolution_;
   int sure_reach_;  // in cubes
+  double enough_;   // cubes
   const LookConfig& look_;
   RemovalResult& result_;
   std::vector<Doubt> doubts_;

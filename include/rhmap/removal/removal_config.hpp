@@ -66,6 +66,7 @@ struct EvidenceConfig {
   int doubtful_interval = 2;    ///< or so many, if scans have seen through cubes beside it
   int misses = 2;               ///< looks in a row that must have seen through a cube; a candidate's goes at the first
   double share = 0.85;          ///< of the cubes around, doubted and firm ones, so many must be doubted
+  double enough = 0.16;         ///< a single look will do if so much around is doubted and nothing is firm [m^2]
   int sure_misses = 6;          ///< after so many looks in a row,
   double sure_ratio = 3;        ///< and so many for each scan that has hit the cube,
   double sure_reach = 0.2;      ///< only what is so near to its octant is around it [m], taken as 1 to 4 cubes,
