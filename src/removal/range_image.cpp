@@ -11,8 +11,25 @@ namespace {
 
 constexpr int kSectors = 1800;        // 0.2 degrees: about what one shot of all beams covers
 constexpr float kSameBeam = 0.0012F;  // [rad]; two points of a sector that are nearer in elevation are of one beam
-constexpr int kFewest = 4;            // fewer points in a step are stray ones
+constexpr float kSameShot = 0.0002F;  // [rad]; the same for azimuths
+constexpr int kFewestColumns = 64;
+constexpr int kFewest = 4;  // fewer points in a step are stray ones
 constexpr float kDegree = kPi / 180;
+
+/// Of these numbers; 0 if there are too few.
+float median(std::vector<float>& numbers) {
+  if (numbers.size() < 32) return 0;
+  const auto middle = numbers.begin() + static_cast<std::ptrdiff_t>(numbers.size() / 2);
+  std::nth_element(numbers.begin(), middle, numbers.end());
+  return *middle;
+}
+
+/// Appends the steps between these angles that are larger than `same`.
+void addSteps(std::vector<float>& angles, float same, std::vector<float>& steps) {
+  std::sort(angles.begin(), angles.end());
+  for (std::size_t i = 1; i < angles.size(); ++i)
+    if (const float step = angles[i] - angles[i - 1]; step > same) steps.push_back(step);
+}
 
 /// The median step in elevation between neighbouring beams [rad]; 0 if there are too few points to tell.
 float beamPitch(const ScanPoints& scan, const std::vector<float>& elevation) {
@@ -22,14 +39,8 @@ float beamPitch(const ScanPoints& scan, const std::vector<float>& elevation) {
     sectors[static_cast<std::size_t>(turn * kSectors) % kSectors].push_back(elevation[k]);
   }
   std::vector<float> steps;
-  for (auto& sector : sectors) {
-    std::sort(sector.begin(), sector.end());
-    for (std::size_t i = 1; i < sector.size(); ++i)
-      if (const float step = sector[i] - sector[i - 1]; step > kSameBeam) steps.push_back(step);
-  }
-  if (steps.size() < 32) return 0;
-  std::nth_element(steps.begin(), steps.begin() + static_cast<std::ptrdiff_t>(steps.size() / 2), steps.end());
-  return steps[steps.size() / 2];
+  for (auto& sector : sectors) addSteps(sector, kSameBeam, steps);
+  return median(steps);
 }
 
 /// Steps without points, between beams that are farther apart than others, go to the nearest row that has some.
@@ -51,6 +62,21 @@ void joinEmptySteps(Projection& projection, const ScanPoints& scan) {
   projection.rows = static_cast<int>(beams.size());
 }
 
+/// The median step in azimuth between points of the row that has most [rad]; 0 if there are too few to tell.
+float shotPitch(const Projection& projection, const ScanPoints& scan) {
+  std::vector<std::vector<float>> rows(static_cast<std::size_t>(projection.rows));
+  for (std::size_t k = 0; k < scan.size(); ++k) {
+    const float step = projection.stepOf(scan.x[k], scan.y[k], scan.z[k]);
+    if (step < 0 || step >= static_cast<float>(projection.steps())) continue;
+    const std::int32_t row = projection.row[static_cast<std::size_t>(step)];
+    rows[static_cast<std::size_t>(row)].push_back(fastAtan2(scan.y[k], scan.x[k]));
+  }
+  std::vector<float> steps;
+  addSteps(*std::max_element(rows.begin(), rows.end(), [](auto& a, auto& b) { return a.size() < b.size(); }), kSameShot,
+           steps);
+  return median(steps);
+}
+
 }  // namespace
 
 Projection evenProjection(int rows, int columns, float top, float bottom) {
@@ -62,13 +88,10 @@ Projection evenProjection(int rows, int columns, float top, float bottom) {
 
 Projection measureProjection(const RangeImageConfig& config, const ScanPoints& scan) {
   float top = static_cast<float>(config.fov_up) * kDegree, bottom = static_cast<float>(config.fov_down) * kDegree;
-  const bool has_view = config.fov_up > config.fov_down;
-  if (has_view && config.rows > 0) return evenProjection(config.rows, config.columns, top, bottom);
-
   std::vector<float> elevation(scan.size());
   for (std::size_t k = 0; k < scan.size(); ++k)
     elevation[k] = fastAtan2(scan.z[k], std::sqrt(scan.x[k] * scan.x[k] + scan.y[k] * scan.y[k]));
-  if (!has_view) {
+  if (!(config.fov_up > config.fov_down)) {
     // A few stray points must not stretch the image.
     std::vector<float> sorted = elevation;
     std::sort(sorted.begin(), sorted.end());
@@ -77,12 +100,16 @@ Projection measureProjection(const RangeImageConfig& config, const ScanPoints& s
     top = sorted.empty() ? kPi / 4 : sorted[sorted.size() - 1 - stray];
     if (!(top - bottom > kDegree)) top = bottom + kDegree;
   }
-  if (config.rows > 0) return evenProjection(config.rows, config.columns, top, bottom);
-  const float pitch = beamPitch(scan, elevation);
-  const float steps = pitch > 0 ? std::round((top - bottom) / pitch) + 1 : 64;
-  Projection projection =
-      evenProjection(static_cast<int>(std::clamp(steps, 8.0F, 256.0F)), config.columns, top, bottom);
-  joinEmptySteps(projection, scan);
+  Projection projection = evenProjection(config.rows, config.columns, top, bottom);
+  if (config.rows == 0) {
+    const float pitch = beamPitch(scan, elevation);
+    const float steps = pitch > 0 ? std::round((top - bottom) / pitch) + 1 : 64;
+    projection = evenProjection(static_cast<int>(std::clamp(steps, 8.0F, 256.0F)), config.columns, top, bottom);
+    joinEmptySteps(projection, scan);
+  }
+  if (const float pitch = shotPitch(projection, scan); pitch > 0)
+    projection.columns =
+        std::min(config.columns, std::max(static_cast<int>(std::round(2 * kPi / pitch)), kFewestColumns));
   return projection;
 }
 

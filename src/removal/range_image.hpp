@@ -36,7 +36,8 @@ struct Projection {
 Projection evenProjection(int rows, int columns, float top, float bottom);
 
 /// What the config says, and for what it does not say what the scan shows: the field of view is that of its points, the
-/// steps are as far apart as points of one azimuth mostly are, and rows are the steps that have points.
+/// steps are as far apart as points of one azimuth mostly are, rows are the steps that have points, and columns are no
+/// narrower than from point to point.
 Projection measureProjection(const RangeImageConfig& config, const ScanPoints& scan);
 
 /// I^B_{m x n}: the nearest range of each pixel [m].

@@ -83,10 +83,10 @@ class Visibility {
   std::vector<float> ranges_;
   std::vector<std::array<float, 3>> points_;  // sensor's frame [m]
   std::vector<Farthest> farthest_;            // blocks of 4, 8, 16 ... pixels
-  int least_up_;                              // rows of a window on each side
   std::vector<int> middle_;                   // the step in the middle of each row
   std::vector<Window> windows_;               // for cubes so many steps away; beyond: the last
   float behind_, before_, aside_, aside_share_, surface_, surface_share_, clearance_, edge_;
+  int least_up_;  // rows of a window on each side
 };
 
 }  // namespace rhmap

@@ -3,11 +3,14 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <map>
 #include <random>
 #include <utility>
+#include <vector>
 
+#include "rhmap/sim/lidar.hpp"
 #include "small_world.hpp"
 
 namespace rhmap {
@@ -33,6 +36,41 @@ TEST_P(Beams, AreCountedInTheScan) {
   EXPECT_NEAR(p.bottom * 180 / 3.14159, -20, 1);
   EXPECT_NEAR(p.top * 180 / 3.14159, 10, 1);
   EXPECT_NEAR(p.rows, GetParam(), 2);
+}
+
+/// A full turn of each beam [rad], all at 20 m.
+ScanPoints turnOf(const std::vector<double>& beams, int shots) {
+  octomap::Pointcloud cloud;
+  for (const double elevation : beams) {
+    for (int j = 0; j < shots; ++j) {
+      const double azimuth = (j + 0.5) / shots * 2 * M_PI;
+      cloud.push_back(static_cast<float>(20 * std::cos(elevation) * std::cos(azimuth)),
+                      static_cast<float>(20 * std::cos(elevation) * std::sin(azimuth)),
+                      static_cast<float>(20 * std::sin(elevation)));
+    }
+  }
+  return test::scanOf(cloud);
+}
+
+TEST(Projection, HasARowForEachOfBeamsThatAreNotEquallyFarApart) {
+  const std::vector<double> beams = sim::elevations(32);
+  const Projection p = measureProjection({}, turnOf(beams, 1800));
+  EXPECT_EQ(p.rows, 32);
+  EXPECT_GT(p.steps(), 100);
+  const auto rowAt = [&](double elevation) {
+    return p.row.at(static_cast<std::size_t>(p.stepOf(1, 0, static_cast<float>(std::tan(elevation)))));
+  };
+  for (std::size_t i = 0; i < beams.size(); ++i) EXPECT_EQ(rowAt(beams[i]), i) << beams[i];
+  EXPECT_EQ(rowAt(-19 * M_PI / 180), 30);  // between two beams, the nearer one's
+  EXPECT_EQ(rowAt(-22 * M_PI / 180), 31);
+  EXPECT_TRUE(std::is_sorted(p.row.begin(), p.row.end()));
+}
+
+TEST(Projection, HasNoMoreColumnsThanATurnHasShots) {
+  const std::vector<double> beams = sim::elevations(16);
+  EXPECT_EQ(measureProjection({}, turnOf(beams, 512)).columns, 512);
+  EXPECT_EQ(measureProjection({}, turnOf(beams, 2048)).columns, 1024);
+  EXPECT_EQ(measureProjection({.columns = 2048}, turnOf(beams, 1800)).columns, 1800);
 }
 
 TEST(Projection, IsWhatTheConfigurationSays) {
@@ -97,7 +135,7 @@ TEST(RangeImage, LeavesOutWhatIsAboveOrBelowItsFieldOfView) {
 }
 
 TEST(RangeImage, MeetsItselfBehindTheSensor) {
-  const Projection p{.rows = 16, .columns = 90, .top = 0.2F, .bottom = -0.2F};
+  const Projection p = evenProjection(16, 90, 0.2F, -0.2F);
   EXPECT_EQ(p.columnOf(-10, 0.01F), 89);
   EXPECT_EQ(p.columnOf(-10, -0.01F), 0);
   EXPECT_GE(p.columnOf(-10, 0), 0);

@@ -163,15 +163,57 @@ TEST(ScanToMapRemoval, TakesAlongWhatTheScanCannotTell) {
   }
 }
 
-TEST(ScanToMapRemoval, LooksEverywhereTwice) {
+RemovalConfig withoutCandidates() {
   RemovalConfig config;
-  config.context.delta_1 = 0;  // no candidates
+  config.context.delta_1 = 0;
   config.evidence.interval = 1;
+  return config;
+}
+
+TEST(ScanToMapRemoval, LooksEverywhereTwice) {
+  RemovalConfig config = withoutCandidates();
+  config.evidence.enough = 100;
   Look look(config);
   look.ghost(10, 0);
   EXPECT_EQ(cubesOf(look.scan(false)), 0U);
   EXPECT_EQ(cubesOf(look.scan(true)), 0U);
   EXPECT_GT(cubesOf(look.scan(true)), 100U);
+}
+
+TEST(ScanToMapRemoval, LooksOnceWhereMuchIsDoubtedAndNothingFirm) {
+  for (const bool is_small : {false, true}) {
+    for (const bool with_firm : {false, true}) {
+      Look look(withoutCandidates());
+      if (is_small) {
+        for (int k = 0; k < 12; ++k) occupy(look.map(), at(10, 0, -1.2 + 0.1 * k));
+      } else {
+        look.ghost(10, 0);
+      }
+      if (with_firm)
+        for (int k = 0; k < 12; ++k) {
+          const OcTreeKey beside = at(10, 0.6, -1.2 + 0.1 * k);
+          Octant& octant = occupy(look.map(), beside);
+          octant.firm |= maskOf(bitOf(beside));
+          octant.safe |= maskOf(bitOf(beside));
+        }
+      EXPECT_EQ(cubesOf(look.scan(true)) > 0, !is_small && !with_firm) << is_small << with_firm;
+    }
+  }
+}
+
+TEST(ScanToMapRemoval, LooksAgainSoonerWhereThereAreDoubts) {
+  std::size_t removed[2] = {};
+  for (const int doubtful_interval : {1, 8}) {
+    RemovalConfig config = withoutCandidates();
+    config.evidence.enough = 100;
+    config.evidence.interval = 8;
+    config.evidence.doubtful_interval = doubtful_interval;
+    Look look(config);
+    look.ghost(10, 0);
+    for (int i = 0; i < 9; ++i) removed[doubtful_interval == 1] += cubesOf(look.scan(true));
+  }
+  EXPECT_GT(removed[1], 100U);
+  EXPECT_LT(removed[0], removed[1] / 2);
 }
 
 TEST(ScanToMapRemoval, LeavesWhatHasStoppedToTheBackEndsGuard) {

@@ -101,6 +101,41 @@ TEST(Visibility, DoesNotSeeThroughACeilingThatOnlyTheFirstRowSees) {
   EXPECT_EQ(visibility.at({15, 0, 0.53F}), Look::kSeenThrough);  // far before it
 }
 
+TEST(Visibility, KnowsNothingOfWhatIsFarFromAllRays) {
+  const octomap::Pointcloud cloud = test::wallAndGround(20, 16, 1024);  // beams every 2 degrees
+  const auto at = [](double x, double degrees) {
+    return std::array<float, 3>{static_cast<float>(x), 0, static_cast<float>(x * std::tan(degrees * M_PI / 180))};
+  };
+  const Visibility visibility = visibilityOf(cloud);
+  EXPECT_EQ(visibility.at(at(15, 4)), Look::kSeenThrough);
+  EXPECT_EQ(visibility.at(at(15, 4.6)), Look::kSeenThrough);
+  EXPECT_EQ(visibility.at(at(15, 5)), Look::kUnknown);  // 0.26 m from the next rays
+  EXPECT_EQ(visibility.at(at(8, 5)), Look::kSeenThrough);
+  EXPECT_EQ(visibilityOf(cloud, {.aside = 0.3}).at(at(15, 5)), Look::kSeenThrough);
+  EXPECT_EQ(visibilityOf(cloud, {.aside_share = 0.02}).at(at(15, 5)), Look::kSeenThrough);
+}
+
+TEST(Visibility, TakesNoLineThatAllButMeetsTheSensorForAWall) {
+  octomap::Pointcloud cloud = test::wallAndGround(50, 64, 1024);
+  for (octomap::point3d& p : cloud) {  // somebody 12 m away
+    const double azimuth = std::atan2(p.y(), p.x());
+    if (p.x() > 12 && azimuth > 0 && azimuth < 0.04) p *= 12 / p.x();
+  }
+  const std::array<float, 3> behind{14, -0.02F, 0};  // seen in the column beside
+  EXPECT_EQ(visibilityOf(cloud).at(behind), Look::kSeenThrough);
+  EXPECT_EQ(visibilityOf(cloud, {.clearance = 0}).at(behind), Look::kUnknown);
+}
+
+TEST(Visibility, DoesNotSeeThroughAWallAlongTheWay) {
+  octomap::Pointcloud cloud = test::wallAndGround(60, 64, 512);
+  for (octomap::point3d& p : cloud)
+    if (p.y() > 3) p *= 3 / p.y();
+  const Visibility visibility = visibilityOf(cloud, {.clearance = 2.5});
+  for (int x = 0; x < 400; ++x)
+    for (const float y : {2.95F, 3.05F})
+      EXPECT_NE(visibility.at({static_cast<float>(x) / 10, y, 0}), Look::kSeenThrough) << x;
+}
+
 TEST(Visibility, OfLargeCubesSeesTheMiddle) {
   octomap::Pointcloud cloud = test::wallAndGround(20, 64, 1440);
   for (octomap::point3d& p : cloud)  // a post of 0.4 m, 6 m away
@@ -120,7 +155,7 @@ TEST(Visibility, SeesCubesAsItSeesTheirCentres) {
   for (octomap::point3d& p : cloud)
     if (unit(random) < 0.1F) p *= 0.3F + 0.7F * unit(random);
   const Visibility visibility = visibilityOf(cloud);
-  const SensorView view(KeySpace(kCube), octomap::pose6d(1, 2, 0.3, 0, 0, 0.5));
+  const SensorView view(KeySpace(kCube), octomap::pose6d(1, 2, 0.3F, 0, 0, 0.5));
   std::vector<CubesAt> places;
   for (int i = 0; i < 3000; ++i) {
     const auto at = [&](auto& along) { return static_cast<key_type>((kTreeMaxVal + along(random)) & ~3); };

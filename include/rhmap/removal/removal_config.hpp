@@ -24,7 +24,7 @@ struct GroundConfig {
 /// The scan as a range image I of m x n pixels.
 struct RangeImageConfig {
   int rows = 0;         ///< m; 0: measured from the first scan with enough points
-  int columns = 1024;   ///< n
+  int columns = 1024;   ///< n, or as many as a turn of the sensor has shots, if these are fewer
   double fov_up = 0;    ///< elevation of the top row [deg]; measured unless it is above fov_down
   double fov_down = 0;  ///< elevation of the bottom row [deg]
 };
