@@ -53,23 +53,37 @@ inline constexpr auto kNearSides = [] {
 template <class MovingIn>
 Neighbourhood lookAround(const RegionMap& map, const OcTreeKey& corner, int reach, MovingIn&& movingIn) {
   Neighbourhood around;
-  const Region* region = nullptr;
+  // The regions around, each looked up once: two or three along an axis.
+  std::array<int, 3> first, last;
+  for (unsigned axis = 0; axis < 3; ++axis) {
+    first[axis] = (corner[axis] - 4) >> map.bits();
+    last[axis] = (corner[axis] + 4) >> map.bits();
+  }
+  std::array<const Region*, 27> regions;
+  const auto regionAt = [&](int x, int y, int z) -> const Region*& {
+    return regions[static_cast<std::size_t>(9 * (x - first[0]) + 3 * (y - first[1]) + z - first[2])];
+  };
+  for (int x = first[0]; x <= last[0]; ++x)
+    for (int y = first[1]; y <= last[1]; ++y)
+      for (int z = first[2]; z <= last[2]; ++z) regionAt(x, y, z) = map.find(x, y, z);
+
   const auto& near = kNearSides[static_cast<std::size_t>(reach - 1)];
   for (int dx = -1; dx <= 1; ++dx) {
     for (int dy = -1; dy <= 1; ++dy) {
       for (int dz = -1; dz <= 1; ++dz) {
-        const OcTreeKey at(static_cast<key_type>(corner[0] + 4 * dx), static_cast<key_type>(corner[1] + 4 * dy),
-                           static_cast<key_type>(corner[2] + 4 * dz));
-        const int x = at[0] >> map.bits(), y = at[1] >> map.bits(), z = at[2] >> map.bits();
-        if (region == nullptr || region->x != x || region->y != y || region->z != z) region = map.find(x, y, z);
+        const int x = corner[0] + 4 * dx, y = corner[1] + 4 * dy, z = corner[2] + 4 * dz;
+        const Region* region = regionAt(x >> map.bits(), y >> map.bits(), z >> map.bits());
         if (region == nullptr) continue;
-        const Octant& octant = region->octants[map.octantOf(at)];
+        const Octant& octant =
+            region
+                ->octants[map.octantOf({static_cast<key_type>(x), static_cast<key_type>(y), static_cast<key_type>(z)})];
         const std::uint64_t within = near[0][static_cast<std::size_t>(dx + 1)] &
                                      near[1][static_cast<std::size_t>(dy + 1)] &
                                      near[2][static_cast<std::size_t>(dz + 1)];
         const std::uint64_t moving = movingIn(*region, octant) & within;
-        around.moving += std::popcount(moving);
-        around.firm += std::popcount(octant.firm & ~octant.doubted & ~octant.ground & ~moving & within);
+        const std::uint64_t firm = octant.firm & ~octant.doubted & ~octant.ground & ~moving & within;
+        if (moving != 0) around.moving += std::popcount(moving);  // most have none of either
+        if (firm != 0) around.firm += std::popcount(firm);
       }
     }
   }

@@ -51,6 +51,17 @@ TEST(LookAround, CountsTheCubesOfAnOctantAndSoManyAround) {
   }
 }
 
+TEST(LookAround, EndsAtTheRimOfTheTree) {
+  for (const int size : {4, 8, 16}) {
+    for (const key_type rim : {key_type{0}, key_type{0xfffc}}) {
+      RegionMap map = test::emptyMap(size);
+      const OcTreeKey corner(rim, rim, rim), opposite(static_cast<key_type>(0xfffc - rim), rim, rim);
+      for (const OcTreeKey& cube : {corner, opposite}) test::occupy(map, cube).firm |= maskOf(bitOf(cube));
+      EXPECT_EQ(lookAround(map, corner, 4, [](const Region&, const Octant& o) { return o.doubted; }).firm, 1);
+    }
+  }
+}
+
 TEST(LookAround, TakesADistanceAs1To4Cubes) {
   EXPECT_EQ(cubesAround(0.2, 0.1), 2);
   EXPECT_EQ(cubesAround(0.2, 0.2), 1);
