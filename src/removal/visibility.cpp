@@ -195,7 +195,7 @@ bool Visibility::hides(const std::array<float, 3>& p, float radius) const {
   return false;
 }
 
-Look Visibility::around(const std::array<float, 3>& p, float range, std::int32_t pixel) const {
+Look Visibility::around(const Vector& p, float range, std::int32_t pixel) const {
   const auto centre = static_cast<std::size_t>(pixel);
   const float behind = range + behind_, before = range - before_;
   const int row = pixel / projection_.columns, column = pixel % projection_.columns;
@@ -207,29 +207,40 @@ Look Visibility::around(const std::array<float, 3>& p, float range, std::int32_t
   };
   const int top = std::max(0, std::min(row - least_up_, rowAt(step - window.up)));
   const int bottom = std::min(projection_.rows - 1, std::max(row + least_up_, rowAt(step + window.up)));
-  const float surface = std::max(surface_, surface_share_ * range), aside = std::max(aside_, aside_share_ * range);
-  const bool empty = ranges_[centre] == RangeImage::kEmpty;
-  bool seen = false, clear = true;
-  for (int i = top; i <= bottom; ++i) {
-    for (int c = column - window.beside; c <= column + window.beside; ++c) {
-      const int j = c < 0 ? c + projection_.columns : c >= projection_.columns ? c - projection_.columns : c;
-      const auto at = static_cast<std::size_t>(i * projection_.columns + j);
-      const float other = ranges_[at];
-      if (other > behind) {
-        seen = seen || (other < RangeImage::kEmpty && squaredDistanceOfRay(p, points_[at]) <= aside * aside);
-      } else if (other >= before) {
-        return Look::kFilled;
-      } else if (clear) {
-        // Something nearer beside the cube: a surface may run from there to what is seen at the cube's own pixel. But
-        // not from what stands in the next column to what is far behind it: the line between them all but meets the
-        // sensor, and walls are farther away.
-        clear =
-            !empty && ((j != column && squaredDistanceOfLine(points_[at], points_[centre]) < clearance_ * clearance_) ||
-                       squaredDistanceToSegment(p, points_[at], points_[centre]) >= surface * surface);
+  const auto any = [&](auto&& holds) {
+    for (int i = top; i <= bottom; ++i) {
+      for (int c = column - window.beside; c <= column + window.beside; ++c) {
+        const int j = c < 0 ? c + projection_.columns : c >= projection_.columns ? c - projection_.columns : c;
+        if (holds(static_cast<std::size_t>(i * projection_.columns + j), j)) return true;
       }
     }
-  }
-  return seen && clear ? Look::kSeenThrough : Look::kUnknown;
+    return false;
+  };
+
+  // Most have something at their place; no point needs to be known for that.
+  if (any([&](std::size_t at, int) { return ranges_[at] >= before && ranges_[at] <= behind; })) return Look::kFilled;
+
+  // Something nearer beside the cube: a surface may run from there to what is seen at the cube's own pixel. But not
+  // from what stands in the next column to what is far behind it: the line between them all but meets the sensor, and
+  // walls are farther away.
+  const float surface = std::max(surface_, surface_share_ * range);
+  const auto isSurface = [&](const Vector& nearer, bool same_column) {
+    const Vector& own = points_[centre];
+    return squaredDistanceToSegment(p, nearer, own) < surface * surface &&
+           (same_column || squaredDistanceOfLine(nearer, own) >= clearance_ * clearance_);
+  };
+  const bool empty = ranges_[centre] == RangeImage::kEmpty;
+  if (any([&](std::size_t at, int j) {
+        return ranges_[at] < before && (empty || isSurface(points_[at], j == column));
+      }))
+    return Look::kUnknown;
+
+  const float aside = std::max(aside_, aside_share_ * range);
+  const bool seen = any([&](std::size_t at, int) {
+    return ranges_[at] > behind && ranges_[at] < RangeImage::kEmpty &&
+           squaredDistanceOfRay(p, points_[at]) <= aside * aside;
+  });
+  return seen ? Look::kSeenThrough : Look::kUnknown;
 }
 
 }  // namespace rhmap
