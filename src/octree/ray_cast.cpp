@@ -1,60 +1,49 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include <cstdint>
+#include "rhmap/octree/ray_cast.hpp"
 
-#include "rhmap/octree/ray.hpp"
+#include <algorithm>
+#include <cstdint>
 
 #undef HWY_TARGET_INCLUDE
 #define HWY_TARGET_INCLUDE "ray_cast.cpp"
 #include <hwy/foreach_target.h>  // compiles this file once for every instruction set
 #include <hwy/highway.h>
 
+#include "ray_step-inl.hpp"
+
 HWY_BEFORE_NAMESPACE();
 namespace rhmap::HWY_NAMESPACE {
 namespace hn = hwy::HWY_NAMESPACE;
 
-// One lane: not for doing several things at once, but because vectors can choose without branches, and the next axis of
-// a ray is hard to guess.
+// One lane: not for doing several things at once, but because vectors can choose without branches.
 using F = hn::CappedTag<double, 1>;
-using I = hn::RebindToSigned<F>;
-using VF = hn::Vec<F>;
-using MF = hn::Mask<F>;
+using U = hn::RebindToUnsigned<F>;
 
-/// All bits where the mask is set.
-HWY_INLINE std::uint32_t bitsOf(MF mask) {
-  return static_cast<std::uint32_t>(hn::GetLane(hn::VecFromMask(I(), hn::RebindMask(I(), mask))));
-}
-
-RayEntry LeaveCube(Ray& ray, int bits, double limit) {
+void FollowRay(RayCast& ray, int bits, double limit) {
   const F f;
-  VF tx = hn::Set(f, ray.t_max[0]), ty = hn::Set(f, ray.t_max[1]), tz = hn::Set(f, ray.t_max[2]);
-  const VF dx = hn::Set(f, ray.t_delta[0]), dy = hn::Set(f, ray.t_delta[1]), dz = hn::Set(f, ray.t_delta[2]);
-  const auto sx = static_cast<std::uint32_t>(ray.step[0]), sy = static_cast<std::uint32_t>(ray.step[1]),
-             sz = static_cast<std::uint32_t>(ray.step[2]);
-  std::uint32_t kx = ray.key[0], ky = ray.key[1], kz = ray.key[2];
-  const std::uint32_t fx = kx, fy = ky, fz = kz;
+  const U u;
+  auto tx = hn::Set(f, ray.t_max[0]), ty = hn::Set(f, ray.t_max[1]), tz = hn::Set(f, ray.t_max[2]);
+  const auto dx = hn::Set(f, ray.t_delta[0]), dy = hn::Set(f, ray.t_delta[1]), dz = hn::Set(f, ray.t_delta[2]);
+  auto cell = hn::Set(u, ray.mirrored);
+  const auto mirror = hn::Set(u, ray.mirror);
+  const std::uint64_t first = ray.mirrored, outside = cell_word::outsideOfCube(std::max(bits, 3));
+  const std::size_t each = bits < 3 ? 1 : 0;
+  std::size_t size = 0;
+  std::uint64_t before, at = first;
   double entry;
   do {
-    const MF x_before_y = hn::Lt(tx, ty);
-    const VF first = hn::Min(tx, ty);
-    const MF z = hn::Le(tz, first);
-    const MF x = hn::AndNot(z, x_before_y);
-    const MF y = hn::AndNot(z, hn::Not(x_before_y));
-    entry = hn::GetLane(hn::Min(first, tz));
-    tx = hn::IfThenElse(x, hn::Add(tx, dx), tx);
-    ty = hn::IfThenElse(y, hn::Add(ty, dy), ty);
-    tz = hn::IfThenElse(z, hn::Add(tz, dz), tz);
-    kx += sx & bitsOf(x);
-    ky += sy & bitsOf(y);
-    kz += sz & bitsOf(z);
-  } while (((kx ^ fx) | (ky ^ fy) | (kz ^ fz)) >> bits == 0 && entry <= limit);
-  // At most one of them, by the last step.
-  const bool in_space = ((kx | ky | kz) >> 16) == 0;
-  const auto keyOf = [](std::uint32_t k) { return static_cast<key_type>(k >> 16 == 0 ? k : k >> 31 ? 0 : 0xffff); };
-  ray.key = OcTreeKey(keyOf(kx), keyOf(ky), keyOf(kz));
-  ray.t_max[0] = hn::GetLane(tx);
-  ray.t_max[1] = hn::GetLane(ty);
-  ray.t_max[2] = hn::GetLane(tz);
-  return {entry, in_space};
+    before = at;
+    entry = hn::GetLane(hn::Min(hn::Min(tx, ty), tz));
+    cell = advance(f, tx, ty, tz, dx, dy, dz, cell);
+    at = hn::GetLane(cell);
+    ray.path[size] = hn::GetLane(hn::Xor(cell, mirror));
+    size += each;
+  } while (((at ^ first) & outside) == 0 && entry <= limit);
+  ray.size = size - each;
+  ray.in_space = at > before;  // or else it has begun again at the other end
+  ray.mirrored = ray.in_space ? at : before;
+  ray.entry = entry;
+  ray.t_max = {hn::GetLane(tx), hn::GetLane(ty), hn::GetLane(tz)};
 }
 
 }  // namespace rhmap::HWY_NAMESPACE
@@ -62,10 +51,39 @@ HWY_AFTER_NAMESPACE();
 
 #if HWY_ONCE
 namespace rhmap {
+namespace {
 
-HWY_EXPORT(LeaveCube);
+/// Most of the steps inside of a cube, each axis by itself. Their order does not matter as long as all of them come
+/// before the one that leaves; and those that come a cell and more before it certainly do.
+void skipAhead(RayCast& ray, int bits, double limit) {
+  OcTreeKey at = cell_word::toKey(ray.mirrored);
+  const int last = (1 << bits) - 1;
+  double until = limit;
+  for (unsigned i = 0; i < 3; ++i) until = std::min(until, ray.t_max[i] + ray.t_delta[i] * (last - (at[i] & last)));
+  for (unsigned i = 0; i < 3; ++i) {
+    const int steps = static_cast<int>(std::max(0.0, (until - ray.t_max[i]) / ray.t_delta[i]));
+    double t = ray.t_max[i];
+    for (int k = 0; k < steps; ++k) t += ray.t_delta[i];
+    ray.t_max[i] = t;
+    at[i] = static_cast<key_type>(at[i] + steps);
+  }
+  ray.mirrored = cell_word::fromKey(at);
+}
 
-RayEntry leaveCube(Ray& ray, int bits, double limit) { return HWY_DYNAMIC_DISPATCH(LeaveCube)(ray, bits, limit); }
+}  // namespace
+
+RayCast::RayCast(const Ray& ray) : t_max(std::to_array(ray.t_max)), t_delta(std::to_array(ray.t_delta)) {
+  for (int i = 0; i < 3; ++i)
+    if (ray.step[i] < 0) mirror |= cell_word::kAxis[i];
+  mirrored = cell_word::fromKey(ray.key) ^ mirror;
+}
+
+HWY_EXPORT(FollowRay);
+
+void followRay(RayCast& ray, int bits, double limit) {
+  if (bits > 3) skipAhead(ray, bits, limit);
+  HWY_DYNAMIC_DISPATCH(FollowRay)(ray, bits, limit);
+}
 
 }  // namespace rhmap
 #endif

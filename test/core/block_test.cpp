@@ -6,6 +6,9 @@
 #include <random>
 #include <set>
 
+#include "rhmap/core/cell_word.hpp"
+#include "rhmap/core/region_lookahead.hpp"
+
 namespace rhmap {
 namespace {
 
@@ -78,6 +81,41 @@ TEST(Block, BlockKeysAreDistinctBetweenBlocksAndEqualWithin) {
         ASSERT_NE(blockKey(a, level), blockKey(a, level - 1));
       }
     }
+  }
+}
+
+TEST(Block, TheNextCellIsTheNextThatExists) {
+  std::mt19937 random(3);
+  for (int i = 0; i < 200; ++i) {
+    Block block{};
+    std::set<int> cells;
+    for (int k = 0; k < i % 40; ++k) {
+      const int cell = static_cast<int>(random() % kCells);
+      cells.insert(cell);
+      block.mask[static_cast<unsigned>(cell) >> 3] |= static_cast<std::uint8_t>(1U << (cell & 7));
+    }
+    for (int cell = 0; cell < kCells; ++cell) {
+      const auto next = cells.upper_bound(cell);
+      ASSERT_EQ(nextCell(block, cell), next == cells.end() ? kCells : *next) << "after " << cell;
+    }
+  }
+}
+
+TEST(CellWord, OutsideOfACubeIsWhatDiffersAboveItsBits) {
+  std::mt19937 random(4);
+  const auto key = [&] {
+    return OcTreeKey(static_cast<key_type>(random()), static_cast<key_type>(random()), static_cast<key_type>(random()));
+  };
+  for (int i = 0; i < 5000; ++i) {
+    const int bits = 3 + i % 14;
+    const OcTreeKey a = key();
+    OcTreeKey b = key();
+    for (unsigned axis = 0; axis < 3; ++axis)  // as near as the cube is large, give or take
+      b[axis] =
+          static_cast<key_type>(a[axis] ^ (b[axis] & ((2U << bits) - 1) & ~(random() % 4 == 0 ? 1U << bits : 0U)));
+    const bool inside = ((a[0] ^ b[0]) | (a[1] ^ b[1]) | (a[2] ^ b[2])) >> bits == 0;
+    ASSERT_EQ(((cell_word::fromKey(a) ^ cell_word::fromKey(b)) & cell_word::outsideOfCube(bits)) == 0, inside);
+    ASSERT_EQ(cell_word::toKey(cell_word::fromKey(a)), a);
   }
 }
 

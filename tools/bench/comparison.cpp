@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cstdlib>
 #include <fstream>
 #include <stdexcept>
 
@@ -19,6 +20,16 @@ struct Pair {
   std::unique_ptr<Library> octomap, rhmap;
 };
 
+/// Millions of small nodes were freed, of OctoMap's tree or of key sets. glibc puts off joining and sorting them until
+/// the next large allocations, whoever makes them: outside of the measurement it is nobody's.
+void tidyHeap() {
+  malloc_trim(0);  // joins
+  for (int i = 0; i < 1000; ++i) {
+    void* volatile large = std::malloc(1 << 16);  // sorts the next ten thousand
+    std::free(large);
+  }
+}
+
 /// Measures both libraries, in turns with a different one first, so that neither always finds the caches as the other
 /// left them.
 template <class F>
@@ -26,9 +37,7 @@ void measure(Pair& pair, Row& row, std::size_t turn, F&& run) {
   std::array<Sample, 2> samples;  // octomap, rhmap
   for (const std::size_t which : {turn % 2, 1 - turn % 2}) {
     samples[which] = run(which == 0 ? *pair.octomap : *pair.rhmap);
-    // Millions of small nodes were freed, of OctoMap's tree or of key sets. glibc puts off sorting them until the next
-    // large allocation, whoever makes it: outside of the measurement it is nobody's.
-    malloc_trim(0);
+    tidyHeap();
   }
   row.octomap.push_back(samples[0].seconds / static_cast<double>(samples[0].operations));
   row.rhmap.push_back(samples[1].seconds / static_cast<double>(samples[1].operations));

@@ -56,6 +56,9 @@ class BlockStore {
   /// The region around `key`, or null.
   Block* findRegion(const OcTreeKey& key) const { return findBlock(key, kRegionLevel); }
 
+  /// Asks for the memory that findRegion() will read.
+  void prefetchRegion(const OcTreeKey& key) const { index_.prefetch(blockKey(key, kRegionLevel)); }
+
   /// The root, or empty.
   NodeRef root() const { return root_ != nullptr ? NodeRef{root_, kRootSlot} : NodeRef{}; }
 
@@ -361,6 +364,7 @@ class BlockStore {
   Block* createBlock(const OcTreeKey& corner, int level, Block* parent) {
     auto* block = static_cast<Block*>(blocks_.allocate());
     block->mask.fill(0);
+    block->octet.fill(0);
     block->level = static_cast<std::uint8_t>(level);
     block->corner = corner;
     block->stamp = 0;

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstddef>
+#include <cstring>
 #include <vector>
 
 #include "rhmap/core/large_piece.hpp"
@@ -11,16 +12,17 @@ namespace rhmap {
 /// Memory for records of one size, at addresses that stay. Released records are kept for reuse.
 class RecordPool {
  public:
-  /// `bytes`: of a record. Multiples of an alignment (up to kLargePieceBytes) are aligned so.
+  /// `bytes`: of a record, that of a pointer or more. Multiples of an alignment (up to kLargePieceBytes) are aligned
+  /// so.
   explicit RecordPool(std::size_t bytes) : bytes_(bytes) {}
   RecordPool(const RecordPool&) = delete;
   RecordPool& operator=(const RecordPool&) = delete;
   ~RecordPool() { clear(); }
 
   void* allocate() {
-    if (!free_.empty()) {
-      void* record = free_.back();
-      free_.pop_back();
+    if (released_ != nullptr) {
+      void* record = released_;
+      std::memcpy(&released_, record, sizeof released_);
       return record;
     }
     if (next_ == end_) addPiece();
@@ -29,25 +31,25 @@ class RecordPool {
     return record;
   }
 
-  void release(void* record) noexcept { free_.push_back(record); }
+  void release(void* record) noexcept {
+    std::memcpy(record, &released_, sizeof released_);
+    released_ = record;
+  }
 
   void clear() {
     for (void* piece : pieces_) freeLargePiece(piece);
     pieces_ = decltype(pieces_)();
-    free_ = decltype(free_)();
+    released_ = nullptr;
     capacity_ = 0;
     next_ = end_ = nullptr;
   }
 
-  std::size_t memoryUsage() const {
-    return capacity_ * bytes_ - static_cast<std::size_t>(end_ - next_) + free_.size() * sizeof(void*);
-  }
+  std::size_t memoryUsage() const { return capacity_ * bytes_ - static_cast<std::size_t>(end_ - next_); }
 
  private:
   void addPiece() {
     const std::size_t records = kLargePieceBytes / bytes_;
     pieces_.reserve(pieces_.size() + 1);
-    free_.reserve(capacity_ + records);                  // so that release() cannot throw
     void* piece = allocateLargePiece(!pieces_.empty());  // small maps stay small
     pieces_.push_back(piece);
     capacity_ += records;
@@ -57,7 +59,7 @@ class RecordPool {
 
   std::size_t bytes_;
   std::vector<void*> pieces_;
-  std::vector<void*> free_;
+  void* released_ = nullptr;  // the last of them; each holds the address of the one before
   std::size_t capacity_ = 0;  // records
   char* next_ = nullptr;      // of the last piece, up to
   char* end_ = nullptr;

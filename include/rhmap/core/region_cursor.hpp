@@ -1,40 +1,56 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <algorithm>
 #include <cstdint>
-#include <limits>
 
 #include "rhmap/core/block_store.hpp"
+#include "rhmap/core/cell_word.hpp"
 
 namespace rhmap {
 
-/// Searches cells one after the other, and remembers the last region: for paths, where most steps stay in it. Lives in
-/// one function of one thread, while the map does not change.
+/// Searches cells one after the other, and remembers the last region, or the cube around it where there is none: for
+/// paths, where most steps stay in it. Lives in one function of one thread, while the map does not change.
 template <class NODE>
 class RegionCursor {
  public:
   explicit RegionCursor(const BlockStore<NODE>& store) : store_(store) {}
 
   /// BlockStore::search at depth 16: the cell or the leaf that contains it, null where unknown.
-  const NODE* search(const OcTreeKey& key) {
-    if (const std::uint64_t name = blockKey(key, kRegionLevel); name != name_) {
-      name_ = name;
-      region_ = store_.findRegion(key);
-      if (region_ == nullptr) whole_ = store_.searchAbove(key, kRegionLevel);
-    }
-    const auto found = region_ == nullptr ? whole_ : searchCell(region_, cellIndex(key, kRegionLevel));
-    bits_ = found.bits;
-    return found.node ? store_.node(found.node) : nullptr;
+  const NODE* search(const OcTreeKey& key) { return search(cell_word::fromKey(key)); }
+  const NODE* search(std::uint64_t cell) {
+    if (((cell ^ last_) & outside_) != 0) moveTo(cell);
+    return region_ != nullptr ? searchHere(cell) : whole_;
   }
 
-  /// The cube of 2^bits cells an edge around the last key in which every search finds the same.
+  /// The same in the region of the last search, which must exist.
+  const NODE* searchHere(std::uint64_t cell) const {
+    const NodeRef found = searchCell(region_, static_cast<int>(cell & (kCellsInBlock - 1))).node;
+    return found ? store_.node(found) : nullptr;
+  }
+
+  /// Around the last cell, the cube of 2^bits cells an edge in which every search finds the same; 0 in a region.
   int bits() const { return bits_; }
 
  private:
+  void moveTo(std::uint64_t cell) {
+    const OcTreeKey key = cell_word::toKey(cell);
+    last_ = cell;
+    bits_ = 0;
+    region_ = store_.findRegion(key);
+    if (region_ == nullptr) {
+      const Found found = store_.searchAbove(key, kRegionLevel);
+      whole_ = found.node ? store_.node(found.node) : nullptr;
+      bits_ = found.bits;
+    }
+    outside_ = cell_word::outsideOfCube(std::max(bits_, 3));
+  }
+
   const BlockStore<NODE>& store_;
-  std::uint64_t name_ = std::numeric_limits<std::uint64_t>::max();
-  Block* region_ = nullptr;  // null: there is none here, and
-  Found whole_{};            // this holds for all its cells
+  std::uint64_t last_ = ~std::uint64_t{0};  // no cell
+  std::uint64_t outside_ = ~std::uint64_t{0};
+  Block* region_ = nullptr;      // null: there is none here, and
+  const NODE* whole_ = nullptr;  // this holds for all its cells
   int bits_ = 0;
 };
 

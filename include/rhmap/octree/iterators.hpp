@@ -6,6 +6,7 @@
 #include <iterator>
 
 #include "rhmap/core/leaf_walk.hpp"
+#include "rhmap/core/region_lookahead.hpp"
 #include "rhmap/octree/key_space.hpp"
 
 namespace rhmap {
@@ -34,12 +35,12 @@ class OcTreeIteratorBase {
     }
   }
 
-  bool operator==(const OcTreeIteratorBase& other) const { return tree_ == other.tree_ && at_ == other.at_; }
+  bool operator==(const OcTreeIteratorBase& other) const { return node_ == other.node_; }
 
-  const NodeType* operator->() const { return octet_ + at_.sibling(); }
-  NodeType* operator->() { return octet_ + at_.sibling(); }
-  const NodeType& operator*() const { return octet_[at_.sibling()]; }
-  NodeType& operator*() { return octet_[at_.sibling()]; }
+  const NodeType* operator->() const { return node_; }
+  NodeType* operator->() { return node_; }
+  const NodeType& operator*() const { return *node_; }
+  NodeType& operator*() { return *node_; }
 
   /// Centre of the node [m].
   point3d getCoordinate() const { return tree_->keySpace().keyToCoord(getKey(), getDepth()); }
@@ -86,6 +87,7 @@ class OcTreeIteratorBase {
     if (at_.block->level != kRegionLevel - 1 || at_.slot >= kCells || max_depth_ != kTreeDepth) return false;
     const NodeRef octet = tree_->store().childOctetOf(at_);
     if (!octet) return false;
+    prefetchRegionsAfter(tree_->store(), at_);
     at_.block = octet.block;
     walk_ = LeafWalk(*octet.block);
     return nextInRegion();
@@ -95,20 +97,19 @@ class OcTreeIteratorBase {
   bool nextInRegion() {
     const int slot = walk_.next();
     if (slot < 0) return false;
-    at_.slot = slot;
-    octet_ = tree_->store().octet(at_.block, slot >> 3).nodes;
+    moveTo({at_.block, slot});
     return true;
   }
 
   void moveTo(NodeRef node) {
     at_ = node;
-    octet_ = tree_->store().octet(node.block, node.slot >> 3).nodes;
+    node_ = tree_->store().node(node);
   }
 
   const TREE* tree_ = nullptr;
   NodeRef at_;
-  NodeType* octet_ = nullptr;  // where the node and its siblings are
-  LeafWalk walk_;              // in a region that was entered as a whole
+  NodeType* node_ = nullptr;  // null at the end
+  LeafWalk walk_;             // in a region that was entered as a whole
   unsigned max_depth_ = 0;
 
  private:
@@ -157,7 +158,7 @@ class OcTreeLeafIterator : public OcTreeIteratorBase<TREE> {
   explicit OcTreeLeafIterator(const TREE* tree, unsigned max_depth = 0) : Base(tree, max_depth) { descend(); }
 
   OcTreeLeafIterator& operator++() {
-    if (this->tree_ == nullptr || this->nextInRegion()) return *this;
+    if (this->nextInRegion() || this->tree_ == nullptr) return *this;
     this->passBy(Base::everything);
     descend();
     return *this;
@@ -200,7 +201,7 @@ class OcTreeLeafBbxIterator : public OcTreeIteratorBase<TREE> {
   }
 
   OcTreeLeafBbxIterator& operator++() {
-    if (this->tree_ == nullptr || this->nextInRegion()) return *this;
+    if (this->nextInRegion() || this->tree_ == nullptr) return *this;
     this->passBy(overlap());
     descend();
     return *this;

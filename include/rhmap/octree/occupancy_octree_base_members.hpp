@@ -8,6 +8,7 @@
 #include "rhmap/core/region_cursor.hpp"
 #include "rhmap/octree/map_codec.hpp"
 #include "rhmap/octree/occupancy_octree_base.hpp"
+#include "rhmap/octree/ray_cast.hpp"
 
 namespace rhmap {
 
@@ -247,37 +248,37 @@ void OccupancyOcTreeBase<NODE>::toMaxLikelihood() {
 // --- rays into the map ---
 
 template <class NODE>
+[[gnu::flatten]]  // among as much else as is compiled with it, GCC would inline none of the little that its loops do
 bool OccupancyOcTreeBase<NODE>::castRay(const point3d& origin, const point3d& direction, point3d& end,
                                         bool ignoreUnknown, double maxRange) const {
   OcTreeKey key;
   if (!this->coordToKeyChecked(origin, key)) return false;
   RegionCursor<NODE> cursor(*this->store_);
-  const NODE* start = cursor.search(key);
-  if (start == nullptr ? !ignoreUnknown : this->isNodeOccupied(start)) {
-    end = this->keyToCoord(key);
-    return start != nullptr;
-  }
-  std::optional<Ray> ray = startCast(this->keys_, origin, key, unitVector(direction));
-  if (!ray) return false;
+  const auto endsIn = [&](const NODE* node) { return node == nullptr ? !ignoreUnknown : this->isNodeOccupied(node); };
+  const auto stop = [&](std::uint64_t cell, const NODE* hit) {
+    end = this->keyToCoord(cell_word::toKey(cell));
+    return hit != nullptr;
+  };
+  if (const NODE* node = cursor.search(key); endsIn(node)) return stop(cell_word::fromKey(key), node);
+  const std::optional<Ray> start = startCast(this->keys_, origin, key, unitVector(direction));
+  if (!start) return false;
 
-  const auto beyond = [&](const point3d& centre) {
+  // A cell's centre is no farther from where the ray enters than a diagonal: up to here the range needs no test.
+  const double certainly_within = maxRange > 0.0 ? maxRange - (2 * this->getResolution() + 1e-5 * maxRange)
+                                                 : std::numeric_limits<double>::infinity();
+  const auto isBeyond = [&](const point3d& centre) {
     double squared = 0.0;
     for (unsigned i = 0; i < 3; ++i) squared += double((centre(i) - origin(i)) * (centre(i) - origin(i)));
     return squared > maxRange * maxRange;
   };
-  const auto stop = [&](bool hit) {
-    end = this->keyToCoord(ray->key);
-    return hit;
-  };
-  // A cell's centre is no farther from where the ray enters than a diagonal: up to here the range needs no test.
-  const double certainly_within = maxRange > 0.0 ? maxRange - (2 * this->getResolution() + 1e-5 * maxRange)
-                                                 : std::numeric_limits<double>::infinity();
-  for (;;) {
-    const RayEntry entry = leaveCube(*ray, cursor.bits(), certainly_within);
-    if (!entry.in_space) return stop(false);
-    if (entry.distance > certainly_within && beyond(this->keyToCoord(ray->key))) return stop(false);
-    const NODE* node = cursor.search(ray->key);
-    if (node == nullptr ? !ignoreUnknown : this->isNodeOccupied(node)) return stop(node != nullptr);
+  for (RayCast ray(*start);;) {
+    followRay(ray, cursor.bits(), certainly_within);
+    for (const std::uint64_t cell : ray.passed())
+      if (const NODE* node = cursor.searchHere(cell); endsIn(node)) return stop(cell, node);
+    const std::uint64_t cell = ray.cell();
+    if (!ray.in_space) return stop(cell, nullptr);
+    if (ray.entry > certainly_within && isBeyond(this->keyToCoord(cell_word::toKey(cell)))) return stop(cell, nullptr);
+    if (const NODE* node = cursor.search(cell); endsIn(node)) return stop(cell, node);
   }
 }
 

@@ -61,17 +61,6 @@ RayStart startSegment(const KeySpace& keys, const point3d& origin, const point3d
 std::optional<Ray> startCast(const KeySpace& keys, const point3d& origin, const OcTreeKey& key,
                              const point3d& direction);
 
-/// How a ray came to the cell that it is in now.
-struct RayEntry {
-  double distance;  ///< along the ray [m]
-  bool in_space;    ///< false: this is the last cell before the border of the key space, and the ray goes no farther
-};
-
-/// Follows a ray until it has left the cube of 2^bits cells an edge (as the tree is divided) that it is in, or has
-/// entered a cell farther than `limit` [m]: one step at least. As Ray::advance() does, but quicker where the way is
-/// long.
-RayEntry leaveCube(Ray& ray, int bits, double limit);
-
 /// direction / |direction| and |b - a|, as OctoMap computes them (out of line, so that a consumer's -mfma cannot fuse
 /// them).
 point3d unitVector(const point3d& v);
