@@ -2,9 +2,11 @@
 #pragma once
 
 #include <algorithm>
+#include <array>
 #include <cstddef>
 #include <cstdint>
 #include <span>
+#include <utility>
 #include <vector>
 
 #include "rhmap/octree/parallel.hpp"
@@ -25,7 +27,15 @@ class ScanApplier {
 
   void apply(const ScanMasks& masks, int num_threads) {
     // One thread makes the blocks, all update what is in them, one goes up from there.
-    masks.forEachRegion([this](const RegionMasks& marks) { open(marks); });
+    std::array<const RegionMasks*, kAhead> soon{};
+    std::size_t n = 0;
+    masks.forEachRegion([&](const RegionMasks& marks) {
+      store_.prefetchRegion(marks.corner());
+      const RegionMasks* now = std::exchange(soon[n++ % kAhead], &marks);
+      if (now != nullptr) open(*now);
+    });
+    for (std::size_t i = 0; i < kAhead; ++i, ++n)
+      if (soon[n % kAhead] != nullptr) open(*soon[n % kAhead]);
     const auto threads = static_cast<std::size_t>(std::max(num_threads, 1));
     auto editors = store_.editors(threads, regions_.size());
     forEachPart((regions_.size() + kPart - 1) / kPart, threads, [&](std::size_t part, std::size_t thread) {
@@ -37,6 +47,7 @@ class ScanApplier {
   }
 
  private:
+  static constexpr std::size_t kAhead = 8;   // regions that are looked up while more are asked for
   static constexpr std::size_t kPart = 256;  // regions that a thread takes at a time
 
   struct Region {
@@ -86,17 +97,29 @@ class ScanApplier {
     return store_.findRegion(corner);
   }
 
-  /// Updates the next region after the memory of the one after it was asked for.
+  /// Updates the next region while the memory of those after it is on its way: first the blocks, then the nodes above
+  /// the marked cells.
   void updatePart(std::span<Region> regions, RegionEditor<NODE>& editor) const {
     RegionUpdate<NODE> update[] = {{editor, model_, lazy_}, {editor, model_, lazy_}};
     for (std::size_t i = 0; i <= regions.size(); ++i) {
-      if (i + 2 < regions.size()) {
-        const char* block = reinterpret_cast<const char*>(regions[i + 2].block);
+      if (i + 4 < regions.size()) {
+        const char* block = reinterpret_cast<const char*>(regions[i + 4].block);
         for (std::size_t line = 0; line < sizeof(Block); line += 64) __builtin_prefetch(block + line, 1);
       }
+      if (i + 2 < regions.size()) prefetchAbove(editor, *regions[i + 2].block, *regions[i + 2].marks);
       if (i < regions.size()) update[i % 2].begin(*regions[i].block, *regions[i].marks);
       if (i > 0) regions[i - 1].changed = update[1 - i % 2].finish();
     }
+  }
+
+  /// Asks for the nodes above the marked cells of a region.
+  [[gnu::always_inline]]  // to GCC 12 a function that does nothing but this is a function that does nothing
+  static inline void
+  prefetchAbove(const RegionEditor<NODE>& editor, const Block& region, const RegionMasks& marks) {
+    __builtin_prefetch(editor.nodes(region, kTopOctet), 1);
+    for (std::size_t top = 0; top < 8; ++top)
+      if ((marks.hit[top] | marks.free[top]) != 0)
+        __builtin_prefetch(editor.nodes(region, static_cast<int>(kMiddleOctet + top)), 1);
   }
 
   /// Prunes or recomputes what lies above the changed regions.
