@@ -71,8 +71,8 @@ struct Region {
   Plane plane;
   std::uint64_t hit_octants = 0;    ///< those that the scan has hit
   std::uint64_t loose_octants = 0;  ///< those that may have cubes that are not safe
-  Column* column = nullptr;       ///< the one that it stands in
-  std::span<Octant> octants;      ///< in Morton order
+  Column* column = nullptr;         ///< the one that it stands in
+  std::span<Octant> octants;        ///< in Morton order
   std::span<OctantCounts> counts;
 
   /// Whether there are cubes that were not in the map before the scan that was the last to hit it.
@@ -187,15 +187,21 @@ class RegionMap {
   /// Those that are `due`, in the order in which they became known, which is much quicker than by hash.
   template <class Due, class F>
   void forEachColumn(Due&& due, F&& visit) const {
-    // They lie all over the memory: ask for them, their lists and their regions some time before they are needed.
+    // They lie all over the memory: ask for them, their lists, their regions and the octants that may be looked at some
+    // time before they are needed.
     constexpr std::size_t kAhead = 4;
     const std::size_t n = in_order_.size();
+    const auto ahead = [&](std::size_t i) { return i < n && due(*in_order_[i]) ? in_order_[i] : nullptr; };
     for (std::size_t i = 0; i < n; ++i) {
       if (i + 3 * kAhead < n) __builtin_prefetch(in_order_[i + 3 * kAhead]);
-      if (i + 2 * kAhead < n && due(*in_order_[i + 2 * kAhead]))
-        __builtin_prefetch(in_order_[i + 2 * kAhead]->regions.data());
-      if (i + kAhead < n && due(*in_order_[i + kAhead]))
-        for (const Region* region : in_order_[i + kAhead]->regions) __builtin_prefetch(region);
+      if (const Column* column = ahead(i + 2 * kAhead)) __builtin_prefetch(column->regions.data());
+      if (const Column* column = ahead(i + kAhead))
+        for (const Region* region : column->regions) __builtin_prefetch(region);
+      if (const Column* column = ahead(i + kAhead / 2)) {
+        for (const Region* region : column->regions)
+          forEachBit(region->loose_octants,
+                     [&](int o) { __builtin_prefetch(&region->octants[static_cast<std::size_t>(o)]); });
+      }
       if (due(*in_order_[i])) visit(*in_order_[i]);
     }
   }
