@@ -53,7 +53,8 @@ class ScanApplier {
   struct Region {
     Block* block;
     const RegionMasks* marks;
-    bool changed;
+    bool changed = false;
+    bool is_uniform = false;  // all of it is alike now, and becomes its parent
   };
 
   /// Notes a region to update; makes its block if there is none.
@@ -61,7 +62,7 @@ class ScanApplier {
     const OcTreeKey corner = marks.corner();
     Block* region = store_.findRegion(corner);
     if (region == nullptr) region = make(marks, corner);
-    if (region != nullptr) regions_.push_back({region, &marks, false});
+    if (region != nullptr) regions_.push_back({region, &marks});
   }
 
   /// Null if the region needs no block.
@@ -108,9 +109,20 @@ class ScanApplier {
       }
       if (i + 2 < regions.size()) prefetchAbove(editor, *regions[i + 2].block, *regions[i + 2].marks);
       if (i < regions.size()) update[i % 2].begin(*regions[i].block, *regions[i].marks);
-      if (i > 0) regions[i - 1].changed = update[1 - i % 2].finish();
+      if (i > 0) finish(regions[i - 1], update[1 - i % 2]);
     }
   }
+
+  /// Updates a region and the value of the cell above it, which is nobody else's.
+  void finish(Region& region, RegionUpdate<NODE>& update) const {
+    region.changed = update.finish();
+    if (!region.changed || lazy_) return;
+    region.is_uniform = structure::isUniform(store_, NodeRef{region.block, kTopOctet});
+    if (!region.is_uniform)
+      structure::recompute(*store_.node(cellAbove(region)), store_.octet(region.block, kTopOctet));
+  }
+
+  NodeRef cellAbove(const Region& region) const { return store_.parent({region.block, kTopSlot}); }
 
   /// Asks for the nodes above the marked cells of a region.
   [[gnu::always_inline]]  // to GCC 12 a function that does nothing but this is a function that does nothing
@@ -122,14 +134,15 @@ class ScanApplier {
         __builtin_prefetch(editor.nodes(region, static_cast<int>(kMiddleOctet + top)), 1);
   }
 
-  /// Prunes or recomputes what lies above the changed regions.
+  /// Prunes the regions that are all alike, and prunes or recomputes what lies above the changed ones.
   void close() {
     for (const Region& region : regions_) {
       if (!region.changed) continue;
       store_.touch(region.block);
       if (lazy_) continue;
-      const NodeRef cell = store_.parent({region.block, kTopSlot});
-      structure::summarise(store_, cell, NodeRef{region.block, kTopSlot});
+      const NodeRef cell = cellAbove(region);
+      store_.touch(cell.block);
+      if (region.is_uniform) structure::collapse(store_, cell, NodeRef{region.block, kTopOctet});
       up_.add(cell);
     }
     if (!lazy_) up_.run();
