@@ -67,6 +67,10 @@ class Ground {
   bool is(const OcTreeKey& cube) const {
     return (map_.regionOf(cube)->octants[map_.octantOf(cube)].ground & maskOf(bitOf(cube))) != 0;
   }
+  /// Whether the removal has to look at the octant of a cube.
+  bool isLoose(const OcTreeKey& cube) const {
+    return (map_.regionOf(cube)->loose_octants >> map_.octantOf(cube) & 1) != 0;
+  }
   bool isSafe(const OcTreeKey& cube) const {
     return (map_.regionOf(cube)->octants[map_.octantOf(cube)].safe & maskOf(bitOf(cube))) != 0;
   }
@@ -96,8 +100,10 @@ TEST(GroundEstimation, TheRoofOfACarIsNoneOnceTheRoadIsSeen) {
   Ground ground;
   ground.insert(Ground::plate(0, 24, 18));
   EXPECT_TRUE(ground.is(Ground::at(12, 12, 18)));
+  EXPECT_FALSE(ground.isLoose(Ground::at(12, 12, 18)));
   ground.insert(Ground::plate(0, 24, 2));
   EXPECT_FALSE(ground.is(Ground::at(12, 12, 18)));
+  EXPECT_TRUE(ground.isLoose(Ground::at(12, 12, 18)));
   EXPECT_TRUE(ground.is(Ground::at(12, 12, 2)));
 }
 

@@ -70,6 +70,19 @@ TEST_P(TracedRegionSizes, CountTheScansThatHitEachCube) {
   }
 }
 
+TEST(ScanTrace, LeavesWhatIsOutOfReachOutOfTheColumns) {
+  RegionMap map = emptyMap();
+  const OcTreeKey low(kTreeMaxVal, kTreeMaxVal, kTreeMaxVal), high(kTreeMaxVal, kTreeMaxVal, kTreeMaxVal + 2);
+  ScanPoints points = pointsIn({low, high, low});
+  points.range[1] = 60;
+  const ScanTrace trace = traceScan(map, points, low, 1, {.reach = 50, .resolution = kCube});
+  ASSERT_EQ(trace.columns.size(), 1U);
+  EXPECT_EQ(trace.columns[0].points, 2);
+  EXPECT_EQ(trace.columns[0].z_min, low[2]);
+  EXPECT_EQ(trace.columns[0].z_max, low[2]);
+  EXPECT_TRUE(test::isOccupied(map, high));
+}
+
 TEST(ScanTrace, WithoutInsertionOnlyMarks) {
   RegionMap map = emptyMap();
   const OcTreeKey cube(kTreeMaxVal, kTreeMaxVal, kTreeMaxVal);

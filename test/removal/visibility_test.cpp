@@ -101,6 +101,20 @@ TEST(Visibility, DoesNotSeeThroughACeilingThatOnlyTheFirstRowSees) {
   EXPECT_EQ(visibility.at({15, 0, 0.53F}), Look::kSeenThrough);  // far before it
 }
 
+TEST(Visibility, SeesOfNearCubesAllThatTheirBallCovers) {
+  octomap::Pointcloud cloud = test::wallAndGround(20, 64, 1440);
+  for (octomap::point3d& p : cloud) {  // a thin bar 3 m away, in one row
+    const double elevation = std::atan2(p.z(), std::hypot(p.x(), p.y())) * 180 / M_PI;
+    if (p.x() > 3 && std::abs(elevation - 0.476) < 0.1) p *= 3 / p.x();
+  }
+  const Visibility visibility = visibilityOf(cloud);
+  for (const float below : {0.02F, 0.05F, 0.07F}) {  // 1 to 3 rows
+    EXPECT_EQ(visibility.at({3, 0, 0.025F - below}), Look::kFilled) << below;
+    EXPECT_EQ(visibility.at({3, 0, 0.025F + below}), Look::kFilled) << below;
+  }
+  EXPECT_EQ(visibility.at({3, 0, 0.3F}), Look::kSeenThrough);
+}
+
 TEST(Visibility, KnowsNothingOfWhatIsFarFromAllRays) {
   const octomap::Pointcloud cloud = test::wallAndGround(20, 16, 1024);  // beams every 2 degrees
   const auto at = [](double x, double degrees) {
