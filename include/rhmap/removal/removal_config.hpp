@@ -82,10 +82,10 @@ struct VoidConfig {
   double cell = 0.4;       ///< edge of a cell of free space [m]; taken as 2 or 4 cubes
   double max_range = 50;   ///< rays are followed up to here [m]
   double surface = 0.2;    ///< d_s: this much of a ray's end is surface, not free [m]
-  int interval = 2;        ///< the rays of one in so many scans are followed
-  int tau_f = 3;           ///< so many of these scans must have crossed a cell since its last hit; 1 to 7
+  int interval = 3;        ///< the rays of one in so many scans are followed
+  int tau_f = 2;           ///< so many of these scans must have crossed a cell since its last hit; 1 to 7
   double least_new = 0.2;  ///< cells not crossed on one side count, too, where so much that is hit is new [m^2]
-  int tau_r = 10;          ///< so many of them in a row must have hit a void cell to make it an ordinary one again
+  int tau_r = 7;           ///< so many of them in a row must have hit a void cell to make it an ordinary one again
   int growth = 2;          ///< steps (cells) from what moves to what belongs to it
   int known = 3;           ///< but no cube that more scans than this have hit
 };
