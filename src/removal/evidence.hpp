@@ -74,9 +74,8 @@ Neighbourhood lookAround(const RegionMap& map, const OcTreeKey& corner, int reac
         const int x = corner[0] + 4 * dx, y = corner[1] + 4 * dy, z = corner[2] + 4 * dz;
         const Region* region = regionAt(x >> map.bits(), y >> map.bits(), z >> map.bits());
         if (region == nullptr) continue;
-        const Octant& octant =
-            region
-                ->octants[map.octantOf({static_cast<key_type>(x), static_cast<key_type>(y), static_cast<key_type>(z)})];
+        const OcTreeKey at(static_cast<key_type>(x), static_cast<key_type>(y), static_cast<key_type>(z));
+        const Octant& octant = region->octants[map.octantOf(at)];
         const std::uint64_t within = near[0][static_cast<std::size_t>(dx + 1)] &
                                      near[1][static_cast<std::size_t>(dy + 1)] &
                                      near[2][static_cast<std::size_t>(dz + 1)];

@@ -12,11 +12,11 @@ constexpr std::size_t kAhead = 32;  // octants that are looked up together
 
 /// Points that follow each other in the scan and fall in one octant.
 struct Run {
-  OcTreeKey cube;               // that of the first
-  std::uint64_t cubes = 0;      // of the octant
+  OcTreeKey cube;                   // that of the first
+  std::uint64_t cubes = 0;          // of the octant
   int z_min = 1 << 16, z_max = -1;  // of the points that contexts reach, in keys
   int points = 0;
-  std::uint64_t name = 0;       // of the region
+  std::uint64_t name = 0;  // of the region
   Region* region = nullptr;
 };
 
