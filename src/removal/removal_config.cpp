@@ -106,6 +106,7 @@ void validate(const RemovalConfig& c) {
   between(0, 16, "visibility.window", c.visibility.window, "between 0 and 16");
   atLeast1("evidence.interval", c.evidence.interval);
   atLeast1("evidence.doubtful_interval", c.evidence.doubtful_interval);
+  atLeast1("evidence.ground_interval", c.evidence.ground_interval);
   between(1, 255, "evidence.misses", c.evidence.misses, "between 1 and 255");
   between(1, 255, "evidence.sure_misses", c.evidence.sure_misses, "between 1 and 255");
   between(1, 255, "evidence.firm", c.evidence.firm, "between 1 and 255");

@@ -92,7 +92,7 @@ class ScanToMapRemoval {
     const auto interval = static_cast<std::uint32_t>(config_.evidence.interval);
     const auto doubtful_interval = static_cast<std::uint32_t>(config_.evidence.doubtful_interval);
     const auto isDue = [&](const Column& column) {
-      const std::uint32_t turn = column.x + column.y + look_.scan;
+      const std::uint32_t turn = turnOf(column.x, column.y);
       if (turn % interval != 0 && !(column.doubtful && turn % doubtful_interval == 0)) return false;
       const float dx = static_cast<float>(column.x << map_.bits()) - sensor[0];
       const float dy = static_cast<float>(column.y << map_.bits()) - sensor[1];
@@ -105,6 +105,9 @@ class ScanToMapRemoval {
     });
   }
 
+  /// Whose turn it is goes over the columns from scan to scan, so that all scans have the same to do.
+  std::uint32_t turnOf(key_type x, key_type y) const { return x + y + look_.scan; }
+
   void lookAt(Region& region, int misses) {
     if (misses == 1) {
       result_.is_protected += region.cubes;
@@ -112,6 +115,8 @@ class ScanToMapRemoval {
       return;
     }
     region.doubtful = false;
+    const bool all_ground =
+        misses == 1 || turnOf(region.x, region.y) % static_cast<std::uint32_t>(config_.evidence.ground_interval) == 0;
     forEachBit(region.loose_octants, [&](int number) {
       const auto o = static_cast<std::size_t>(number);
       const Octant& octant = region.octants[o];
@@ -119,6 +124,7 @@ class ScanToMapRemoval {
       std::uint64_t cubes = octant.occupied & ~octant.safe;
       // With nothing but the ratio to go by, all that is near the ground has to stay.
       if (scan_.visibility == nullptr) cubes &= ~octant.ground;
+      if (!all_ground) cubes &= ~octant.ground | octant.doubted;
       if (look_.protect && region.scan == look_.scan) cubes &= ~octant.hit;
       const OcTreeKey corner = map_.cornerOf(region, o);
       if (cubes == 0 || (octant.doubted == 0 && isHidden(corner, 4))) return;

@@ -53,6 +53,7 @@ TEST(RemovalConfig, AWrongValueIsNamed) {
       {[](RemovalConfig& c) { c.evidence.rest_share = -1; }, "evidence.rest_share", "-1"},
       {[](RemovalConfig& c) { c.free_space.least_new = NAN; }, "free_space.least_new", "nan"},
       {[](RemovalConfig& c) { c.evidence.doubtful_interval = 0; }, "evidence.doubtful_interval", "0"},
+      {[](RemovalConfig& c) { c.evidence.ground_interval = 0; }, "evidence.ground_interval", "0"},
       {[](RemovalConfig& c) { c.free_space.interval = 0; }, "free_space.interval", "0"},
       {[](RemovalConfig& c) { c.free_space.tau_f = 9; }, "free_space.tau_f", "9"},
       {[](RemovalConfig& c) { c.look_back.stride = 0; }, "look_back.stride", "0"},

@@ -216,6 +216,30 @@ TEST(ScanToMapRemoval, LooksAgainSoonerWhereThereAreDoubts) {
   EXPECT_LT(removed[0], removed[1] / 2);
 }
 
+TEST(ScanToMapRemoval, LooksAtTheGroundLessOften) {
+  for (const bool is_ground : {true, false}) {
+    RemovalConfig config = withoutCandidates();
+    config.evidence.ground_interval = 8;
+    Look look(config);
+    look.ghost(10, 0);
+    if (is_ground) {
+      look.map().forEachColumn([](Column& column) {
+        for (Region* region : column.regions)
+          for (Octant& octant : region->octants) octant.ground = octant.occupied;
+      });
+    }
+    int scans = 0, last = 0;
+    for (std::size_t removed = 0; removed < 100 && scans < 20;) {
+      ++scans;
+      const std::size_t now = cubesOf(look.scan(true));
+      removed += now;
+      if (now > 0) last = scans;
+    }
+    EXPECT_EQ(last <= 2, !is_ground) << last;
+    EXPECT_LT(scans, 20);
+  }
+}
+
 TEST(ScanToMapRemoval, LeavesWhatHasStoppedToTheBackEndsGuard) {
   for (const int revert_hits : {0, 20}) {
     Look look;

@@ -63,7 +63,8 @@ struct VisibilityConfig {
 struct EvidenceConfig {
   bool everywhere = true;       ///< all cubes in sight are looked at, not only those of candidates by ratio
   int interval = 4;             ///< each of these in one of so many scans,
-  int doubtful_interval = 2;    ///< or so many, if scans have seen through cubes beside it
+  int doubtful_interval = 2;    ///< or so many, if scans have seen through cubes beside it;
+  int ground_interval = 8;      ///< of the ground, only what is doubted and, in one of so many scans, the rest
   int misses = 2;               ///< looks in a row that must have seen through a cube; a candidate's goes at the first
   double share = 0.85;          ///< of the cubes around, doubted and firm ones, so many must be doubted
   double enough = 0.16;         ///< a single look will do if so much around is doubted and nothing is firm [m^2]
