@@ -77,19 +77,20 @@ void FreeSpace::observe(const RegionMap& map, const ScanTrace& trace, const std:
     cell[i] = static_cast<int>(from[i]);
   }
   openWindow(cell);
-  VoidRays rays;
-  markHits(map, trace, from, rays);
   if (trace.scan % static_cast<std::uint32_t>(config_.interval) == 0) {
+    VoidRays rays;
+    markHits(map, trace, from, &rays);
     followRays(from, rays, hit_, crossed_);
     update();
   } else {
+    markHits(map, trace, from, nullptr);
     forgetHit();
   }
 }
 
-/// The hit cells, with one ray to each.
+/// The hit cells, and one ray to each for those who want to follow them (not null).
 void FreeSpace::markHits(const RegionMap& map, const ScanTrace& trace, const std::array<float, 3>& from,
-                         VoidRays& rays) {
+                         VoidRays* rays) {
   const auto cells_per_metre = static_cast<float>(1 / (cube_ * (1 << shift_)));
   const float reach = static_cast<float>(config_.max_range) * cells_per_metre;
   const float surface = static_cast<float>(config_.surface) * cells_per_metre;
@@ -110,12 +111,13 @@ void FreeSpace::markHits(const RegionMap& map, const ScanTrace& trace, const std
       const float t = 1 - surface / length;  // with noise, the surface may be here
       hit_.set(static_cast<int>(from[0] + t * (to[0] - from[0])), static_cast<int>(from[1] + t * (to[1] - from[1])),
                static_cast<int>(from[2] + t * (to[2] - from[2])));
+      if (rays == nullptr) return;
       float share = 1;
       if ((octant.ground & hit) != 0) {  // the last metres of a grazing ray run inside the ground's own cells
         const float sine = std::max(std::fabs(to[2] - from[2]) / length, 1e-3F);
         share = 1 - std::min(kLongestGraze, kGrazing / sine) * cells_per_metre / length;
       }
-      if (share > 0) rays.push(to, share);
+      if (share > 0) rays->push(to, share);
     });
   });
 }

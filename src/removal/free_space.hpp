@@ -84,7 +84,7 @@ class FreeSpace {
   void openWindow(const std::array<int, 3>& cell);
   template <class F>
   void forEachTile(F&& visit);
-  void markHits(const RegionMap& map, const ScanTrace& trace, const std::array<float, 3>& from, VoidRays& rays);
+  void markHits(const RegionMap& map, const ScanTrace& trace, const std::array<float, 3>& from, VoidRays* rays);
   void fill(const CellGrid& cells);
   void forgetHit();
   void update();

@@ -43,13 +43,19 @@ float beamPitch(const ScanPoints& scan, const std::vector<float>& elevation) {
   return median(steps);
 }
 
+/// The image's row of each point; below 0: none.
+std::vector<std::int32_t> rowsOf(const Projection& projection, const ScanPoints& scan) {
+  std::vector<std::int32_t> rows(scan.size());
+  pixelsOf(projection, scan.x.data(), scan.y.data(), scan.z.data(), scan.size(), rows.data());
+  for (std::int32_t& row : rows) row = row < 0 ? row : row / projection.columns;
+  return rows;
+}
+
 /// Steps without points, between beams that are farther apart than others, go to the nearest row that has some.
 void joinEmptySteps(Projection& projection, const ScanPoints& scan) {
   std::vector<int> points(projection.row.size(), 0);
-  for (std::size_t k = 0; k < scan.size(); ++k) {
-    const float step = projection.stepOf(scan.x[k], scan.y[k], scan.z[k]);
-    if (step >= 0 && step < static_cast<float>(projection.steps())) ++points[static_cast<std::size_t>(step)];
-  }
+  for (const std::int32_t step : rowsOf(projection, scan))  // still one row a step
+    if (step >= 0) ++points[static_cast<std::size_t>(step)];
   std::vector<std::size_t> beams;
   for (std::size_t step = 0; step < points.size(); ++step)
     if (points[step] >= kFewest) beams.push_back(step);
@@ -65,12 +71,9 @@ void joinEmptySteps(Projection& projection, const ScanPoints& scan) {
 /// The median step in azimuth between points of the row that has most [rad]; 0 if there are too few to tell.
 float shotPitch(const Projection& projection, const ScanPoints& scan) {
   std::vector<std::vector<float>> rows(static_cast<std::size_t>(projection.rows));
-  for (std::size_t k = 0; k < scan.size(); ++k) {
-    const float step = projection.stepOf(scan.x[k], scan.y[k], scan.z[k]);
-    if (step < 0 || step >= static_cast<float>(projection.steps())) continue;
-    const std::int32_t row = projection.row[static_cast<std::size_t>(step)];
-    rows[static_cast<std::size_t>(row)].push_back(fastAtan2(scan.y[k], scan.x[k]));
-  }
+  const std::vector<std::int32_t> row = rowsOf(projection, scan);
+  for (std::size_t k = 0; k < scan.size(); ++k)
+    if (row[k] >= 0) rows[static_cast<std::size_t>(row[k])].push_back(fastAtan2(scan.y[k], scan.x[k]));
   std::vector<float> steps;
   addSteps(*std::max_element(rows.begin(), rows.end(), [](auto& a, auto& b) { return a.size() < b.size(); }), kSameShot,
            steps);

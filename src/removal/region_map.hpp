@@ -159,7 +159,7 @@ class RegionMap {
     return nameOf(cube[0] >> bits_, cube[1] >> bits_, cube[2] >> bits_);
   }
   Region* find(std::uint64_t name) const { return regions_.find(name); }
-  void prefetch(std::uint64_t name) const { regions_.prefetch(name); }
+  [[gnu::always_inline]] void prefetch(std::uint64_t name) const { regions_.prefetch(name); }
 
   /// The region that holds a cube, if it is known.
   Region* regionOf(const OcTreeKey& cube) const { return find(nameOf(cube)); }

@@ -24,8 +24,8 @@ struct ScanTrace {
   std::vector<ScanColumn> columns;  ///< as far as contexts reach
   std::vector<Region*> regions;     ///< all with a hit
 
-  /// Visits the regions. They lie all over the memory: their hit octants, and if wanted the counts of these, are asked
-  /// for some time before they are needed.
+  /// Visits the regions. They lie all over the memory: their hit octants, and if wanted their columns and counts, are
+  /// asked for some time before they are needed.
   template <bool kCounts = false, class F>
   void forEachRegion(F&& visit) const {
     constexpr std::size_t kAhead = 6;

@@ -19,11 +19,9 @@ inline int nextCell(const Block& block, int cell) {
 
 /// Asks for the memory of what a walk over all regions comes to after the one below `above`, a node at depth 13: each
 /// region by and by, because one cannot ask for its nodes before its block has come, nor for that before its entry in
-/// the hash table has.
+/// the hash table has. (See BlockIndex::prefetch.)
 template <class NODE>
-[[gnu::always_inline]]  // to GCC 12 a function that does nothing but this is a function that does nothing
-inline void
-prefetchRegionsAfter(const BlockStore<NODE>& store, NodeRef above) {
+[[gnu::always_inline]] inline void prefetchRegionsAfter(const BlockStore<NODE>& store, NodeRef above) {
   int cell = above.slot;
   const auto next = [&] {
     if (cell != kCells) cell = nextCell(*above.block, cell);
@@ -35,9 +33,7 @@ prefetchRegionsAfter(const BlockStore<NODE>& store, NodeRef above) {
     for (int octet = 0; octet < kMiddleOctet; ++octet) __builtin_prefetch(store.octet(first, octet).nodes);
   }
   if (!next()) return;
-  if (const Block* second = region())
-    for (std::size_t line = 0; line < sizeof(Block); line += 64)
-      __builtin_prefetch(reinterpret_cast<const char*>(second) + line);
+  if (const Block* second = region()) prefetchBlock(second);
   if (next()) store.prefetchRegion(above.block->cornerOf(cell));
 }
 

@@ -2,11 +2,9 @@
 #pragma once
 
 #include <algorithm>
-#include <array>
 #include <cstddef>
 #include <cstdint>
 #include <span>
-#include <utility>
 #include <vector>
 
 #include "rhmap/octree/parallel.hpp"
@@ -27,15 +25,12 @@ class ScanApplier {
 
   void apply(const ScanMasks& masks, int num_threads) {
     // One thread makes the blocks, all update what is in them, one goes up from there.
-    std::array<const RegionMasks*, kAhead> soon{};
-    std::size_t n = 0;
-    masks.forEachRegion([&](const RegionMasks& marks) {
-      store_.prefetchRegion(marks.corner());
-      const RegionMasks* now = std::exchange(soon[n++ % kAhead], &marks);
-      if (now != nullptr) open(*now);
-    });
-    for (std::size_t i = 0; i < kAhead; ++i, ++n)
-      if (soon[n % kAhead] != nullptr) open(*soon[n % kAhead]);
+    masks.forEachRegion([this](const RegionMasks& marks) { regions_.push_back({.marks = &marks}); });
+    for (std::size_t i = 0; i < regions_.size(); ++i) {
+      if (i + kAhead < regions_.size()) store_.prefetchRegion(regions_[i + kAhead].marks->corner());
+      regions_[i].block = open(*regions_[i].marks);
+    }
+    std::erase_if(regions_, [](const Region& region) { return region.block == nullptr; });
     const auto threads = static_cast<std::size_t>(std::max(num_threads, 1));
     auto editors = store_.editors(threads, regions_.size());
     forEachPart((regions_.size() + kPart - 1) / kPart, threads, [&](std::size_t part, std::size_t thread) {
@@ -51,18 +46,17 @@ class ScanApplier {
   static constexpr std::size_t kPart = 256;  // regions that a thread takes at a time
 
   struct Region {
-    Block* block;
     const RegionMasks* marks;
+    Block* block = nullptr;
     bool changed = false;
     bool is_uniform = false;  // all of it is alike now, and becomes its parent
   };
 
-  /// Notes a region to update; makes its block if there is none.
-  void open(const RegionMasks& marks) {
+  /// The block of a region, made if there is none; null if it needs none.
+  Block* open(const RegionMasks& marks) {
     const OcTreeKey corner = marks.corner();
     Block* region = store_.findRegion(corner);
-    if (region == nullptr) region = make(marks, corner);
-    if (region != nullptr) regions_.push_back({region, &marks});
+    return region != nullptr ? region : make(marks, corner);
   }
 
   /// Null if the region needs no block.
@@ -103,10 +97,7 @@ class ScanApplier {
   void updatePart(std::span<Region> regions, RegionEditor<NODE>& editor) const {
     RegionUpdate<NODE> update[] = {{editor, model_, lazy_}, {editor, model_, lazy_}};
     for (std::size_t i = 0; i <= regions.size(); ++i) {
-      if (i + 4 < regions.size()) {
-        const char* block = reinterpret_cast<const char*>(regions[i + 4].block);
-        for (std::size_t line = 0; line < sizeof(Block); line += 64) __builtin_prefetch(block + line, 1);
-      }
+      if (i + 4 < regions.size()) prefetchBlock(regions[i + 4].block);
       if (i + 2 < regions.size()) prefetchAbove(editor, *regions[i + 2].block, *regions[i + 2].marks);
       if (i < regions.size()) update[i % 2].begin(*regions[i].block, *regions[i].marks);
       if (i > 0) finish(regions[i - 1], update[1 - i % 2]);
@@ -124,10 +115,9 @@ class ScanApplier {
 
   NodeRef cellAbove(const Region& region) const { return store_.parent({region.block, kTopSlot}); }
 
-  /// Asks for the nodes above the marked cells of a region.
-  [[gnu::always_inline]]  // to GCC 12 a function that does nothing but this is a function that does nothing
-  static inline void
-  prefetchAbove(const RegionEditor<NODE>& editor, const Block& region, const RegionMasks& marks) {
+  /// Asks for the nodes above the marked cells of a region (see BlockIndex::prefetch).
+  [[gnu::always_inline]] static void prefetchAbove(const RegionEditor<NODE>& editor, const Block& region,
+                                                   const RegionMasks& marks) {
     __builtin_prefetch(editor.nodes(region, kTopOctet), 1);
     for (std::size_t top = 0; top < 8; ++top)
       if ((marks.hit[top] | marks.free[top]) != 0)
@@ -141,8 +131,11 @@ class ScanApplier {
       store_.touch(region.block);
       if (lazy_) continue;
       const NodeRef cell = cellAbove(region);
-      store_.touch(cell.block);
-      if (region.is_uniform) structure::collapse(store_, cell, NodeRef{region.block, kTopOctet});
+      if (region.is_uniform) {
+        structure::collapse(store_, cell, NodeRef{region.block, kTopOctet});
+      } else {
+        store_.touch(cell.block);
+      }
       up_.add(cell);
     }
     if (!lazy_) up_.run();
