@@ -88,13 +88,12 @@ constexpr std::uint64_t nonzeroBytes(std::uint64_t bytes) {
 }
 
 /// Level of the block with this blockKey().
-inline int blockLevel(std::uint64_t block_key) { return static_cast<int>(block_key >> 39); }
+inline int blockLevel(std::uint64_t block_key) { return static_cast<int>(block_key >> 48); }
 
 /// Smallest key in the block with this blockKey().
 inline OcTreeKey blockCorner(std::uint64_t block_key) {
-  const int shift = cellShift(blockLevel(block_key)) + 3;
-  const auto axis = [=](int first_bit) { return static_cast<key_type>((block_key >> first_bit & 0x1fff) << shift); };
-  return {axis(0), axis(13), axis(26)};
+  const auto axis = [=](int first_bit) { return static_cast<key_type>(block_key >> first_bit); };
+  return {axis(0), axis(16), axis(32)};
 }
 
 /// A node's place. Empty (block null) where there is none.

@@ -11,16 +11,17 @@ namespace rhmap {
 
 /// Open-addressing hash table from 64-bit keys to pointers: linear probing, deletion by shifting back, so that a probe
 /// sequence is one run of memory and there are no tombstones. `find` writes nothing: any number of threads may read.
+/// No key may be 2^64 - 1.
 template <class T>
 class BlockIndex {
  public:
   /// The value under `key`, or null.
-  T* find(std::uint64_t key) const {
+  [[gnu::always_inline]] T* find(std::uint64_t key) const {
     if (entries_.empty()) return nullptr;
     for (std::size_t i = home(key);; i = next(i)) {
       const Entry& e = entries_[i];
-      if (e.key == key && e.value != nullptr) return e.value;
-      if (e.value == nullptr) return nullptr;
+      if (e.key == key) return e.value;
+      if (e.key == kNoKey) return nullptr;
     }
   }
 
@@ -40,11 +41,11 @@ class BlockIndex {
   /// Takes out a key that is there.
   void erase(std::uint64_t key) {
     std::size_t hole = home(key);
-    while (entries_[hole].key != key || entries_[hole].value == nullptr) hole = next(hole);
+    while (entries_[hole].key != key) hole = next(hole);
     for (std::size_t i = next(hole); entries_[i].value != nullptr; i = next(i)) {
       // An entry may move into the hole unless its home lies cyclically in (hole, i].
       const std::size_t h = home(entries_[i].key);
-      if (((i - h) & mask()) >= ((i - hole) & mask())) {
+      if (((i - h) & mask_) >= ((i - hole) & mask_)) {
         entries_[hole] = entries_[i];
         hole = i;
       }
@@ -57,6 +58,7 @@ class BlockIndex {
   void clear() {
     entries_ = decltype(entries_)();
     shift_ = 64;
+    mask_ = 0;
     size_ = 0;
   }
 
@@ -84,13 +86,14 @@ class BlockIndex {
   }
 
  private:
+  static constexpr std::uint64_t kNoKey = ~std::uint64_t{0};
+
   struct Entry {
-    std::uint64_t key = 0;
+    std::uint64_t key = kNoKey;
     T* value = nullptr;
   };
 
-  std::size_t mask() const { return entries_.size() - 1; }
-  std::size_t next(std::size_t i) const { return (i + 1) & mask(); }
+  std::size_t next(std::size_t i) const { return (i + 1) & mask_; }
   std::size_t home(std::uint64_t key) const { return static_cast<std::size_t>((key * 0x9e3779b97f4a7c15U) >> shift_); }
 
   void place(const Entry& e) {
@@ -104,12 +107,14 @@ class BlockIndex {
         std::exchange(entries_, std::vector<Entry>(entries_.empty() ? 16 : entries_.size() * 2));
     shift_ = 64;
     for (std::size_t n = entries_.size(); n > 1; n /= 2) --shift_;
+    mask_ = entries_.size() - 1;
     for (const Entry& e : old)
       if (e.value != nullptr) place(e);
   }
 
   std::vector<Entry> entries_;  // a power of two
   std::size_t size_ = 0;
+  std::size_t mask_ = 0;  // entries_.size() - 1
   int shift_ = 64;
 };
 

@@ -12,6 +12,34 @@ struct Found {
   int bits;
 };
 
+/// Where a search for a cell ends in a block. A search is as fast as it is short: the fewer instructions it has, the more
+/// searches does a processor have under way while one of them waits for memory. Hence all here is inlined by force, and
+/// what it finds stays in registers.
+struct CellPlace {
+  unsigned octet;  ///< 0 ... 72
+  unsigned child;  ///< 0 ... 7
+  unsigned mask;   ///< of that octet
+
+  bool exists() const { return (mask >> child & 1) != 0; }
+  int slot() const { return static_cast<int>(octet * 8 + child); }
+};
+
+/// Depths above the cells at which a search for a cell ends: 0 if its octet exists; 1 if not, but its middle octet does.
+[[gnu::always_inline]] inline unsigned depthsUp(const Block& block, unsigned cell) {
+  const unsigned cells = block.mask[cell >> 3];
+  const unsigned middles = block.mask[kMiddleOctet + (cell >> 6)];
+  return (cells == 0) + ((cells | middles) == 0);
+}
+
+/// The place where a search for a cell ends that no other block lies below. Without branches: at which of the three
+/// depths a ray or a cloud meets the map is anybody's guess.
+[[gnu::always_inline]] inline CellPlace placeOf(const Block& block, unsigned cell, unsigned up) {
+  static constexpr std::uint8_t kFirstOctet[] = {0, kMiddleOctet, kTopOctet};
+  const unsigned index = cell >> (3 * up);
+  const unsigned octet = kFirstOctet[up] + (index >> 3);
+  return {octet, index & 7, block.mask[octet]};
+}
+
 /// The node in a slot, or the leaf of the same block that contains it; empty if unknown.
 inline NodeRef searchIn(Block* block, int slot) {
   if (block->has(slot)) return {block, slot};
@@ -20,18 +48,11 @@ inline NodeRef searchIn(Block* block, int slot) {
   return {};
 }
 
-/// The same for a cell that no other block lies below. Without branches: at which of the three depths a ray or a cloud
-/// meets the map is anybody's guess.
+/// The same for a cell that no other block lies below.
 inline Found searchCell(Block* block, int cell) {
-  constexpr int kFirstSlot[] = {0, kMiddleSlot, kTopSlot};
-  const unsigned cells = block->mask[static_cast<unsigned>(cell) >> 3];
-  const unsigned middles = block->mask[kMiddleOctet + (static_cast<unsigned>(cell) >> 6)];
-  const unsigned tops = block->mask[kTopOctet];
-  // 0: among the cells; 1: there are none, but a middle node may be; 2: nor has such a node any siblings.
-  const int up = (cells == 0) + ((cells | middles) == 0);
-  const unsigned mask = up == 0 ? cells : up == 1 ? middles : tops;
-  const int index = cell >> (3 * up);
-  return {(mask >> (index & 7) & 1) != 0 ? NodeRef{block, kFirstSlot[up] + index} : NodeRef{}, up};
+  const unsigned up = depthsUp(*block, static_cast<unsigned>(cell));
+  const CellPlace place = placeOf(*block, static_cast<unsigned>(cell), up);
+  return {place.exists() ? NodeRef{block, place.slot()} : NodeRef{}, static_cast<int>(up)};
 }
 
 }  // namespace rhmap

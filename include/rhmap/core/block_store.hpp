@@ -64,12 +64,22 @@ class BlockStore {
   /// The root, or empty.
   NodeRef root() const { return root_ != nullptr ? NodeRef{root_, kRootSlot} : NodeRef{}; }
 
+  /// The cell at `key`, or the shallower leaf that contains it; null if unknown.
+  [[gnu::always_inline]] NODE* findNode(const OcTreeKey& key) const {
+    if (const Block* region = findRegion(key)) return findNode(*region, cellIndex(key, kRegionLevel));
+    return findNodeAbove(key);
+  }
+  /// The same for a cell of this region.
+  [[gnu::always_inline]] NODE* findNode(const Block& region, int cell) const {
+    const auto index = static_cast<unsigned>(cell);
+    const CellPlace place = placeOf(region, index, depthsUp(region, index));
+    return place.exists() ? nodes_.nodes(region.octet[place.octet]) + place.child : nullptr;
+  }
+  /// The same where there is no region.
+  [[gnu::noinline]] NODE* findNodeAbove(const OcTreeKey& key) const { return nodeOrNull(searchAbove(key, kRegionLevel).node); }
+
   /// The node at `depth` around `key`, or the shallower leaf that contains it; empty if unknown.
   NodeRef search(const OcTreeKey& key, unsigned depth = kTreeDepth) const {
-    if (depth == kTreeDepth) {
-      if (Block* region = findRegion(key)) return searchCell(region, cellIndex(key, kRegionLevel)).node;
-      return searchAbove(key, kRegionLevel).node;
-    }
     const int level = static_cast<int>(depth + 1) / 3;
     Block* block = findBlock(key, level);
     if (block == nullptr) return searchAbove(key, level).node;
@@ -107,6 +117,8 @@ class BlockStore {
   NODE* node(NodeRef r) const {
     return nodes_.nodes(r.block->octet[static_cast<unsigned>(r.slot) >> 3]) + (r.slot & 7);
   }
+
+  NODE* nodeOrNull(NodeRef r) const { return r ? node(r) : nullptr; }
 
   /// Where a node of this store sits; empty for a depth-16 leaf (which has no children to ask for).
   static NodeRef locate(const NODE* node) { return OctetPool<NODE>::locate(node); }

@@ -40,20 +40,23 @@ constexpr unsigned gather3(unsigned bits) { return (bits & 1) | (bits >> 2 & 2) 
 
 inline constexpr unsigned kCellsInBlock = 512;
 
-/// Morton index (x lowest bit) of the cell that holds `key` within its block of this level: 0 ... 511.
-inline int cellIndex(const OcTreeKey& key, int level) {
-  const int shift = cellShift(level);
-  const auto bits = [&](unsigned i) { return static_cast<std::uint64_t>(key[i] >> shift & 7); };
-  std::uint64_t all = bits(0) | bits(1) << 16 | bits(2) << 32;  // spread3 of the three at once
-  all = (all | all << 2 | all << 4) & 0x0049'0049'0049;
-  return static_cast<int>((all | all >> 15 | all >> 30) & (kCellsInBlock - 1));
+/// The three parts of a key side by side, 16 bits each, x lowest.
+inline std::uint64_t keyWord(const OcTreeKey& key) {
+  return key[0] | static_cast<std::uint64_t>(key[1]) << 16 | static_cast<std::uint64_t>(key[2]) << 32;
 }
 
-/// Names a block in the whole tree: 13 bits an axis, above them the level.
-inline std::uint64_t blockKey(const OcTreeKey& key, int level) {
-  const int shift = cellShift(level) + 3;
-  const auto part = [shift](key_type k) { return static_cast<std::uint64_t>(k >> shift); };
-  return part(key[0]) | part(key[1]) << 13 | part(key[2]) << 26 | static_cast<std::uint64_t>(level) << 39;
+/// Morton index (x lowest bit) of the cell that holds `key` within its block of this level: 0 ... 511. Inlined by force,
+/// like blockKey(): the level is a constant where it counts.
+[[gnu::always_inline]] inline int cellIndex(const OcTreeKey& key, int level) {
+  std::uint64_t all = keyWord(key) >> cellShift(level) & 0x0007'0007'0007;
+  all = (all | all << 2 | all << 4) & 0x0049'0049'0049;  // spread3 of the three at once
+  return static_cast<int>(all * 0x1'0002'0004 >> 32 & (kCellsInBlock - 1));
+}
+
+/// Names a block in the whole tree: its smallest key as keyWord(), above that the level.
+[[gnu::always_inline]] inline std::uint64_t blockKey(const OcTreeKey& key, int level) {
+  const std::uint64_t kept = 0xffffU & ~0U << (cellShift(level) + 3);
+  return (keyWord(key) & kept * 0x1'0001'0001) | static_cast<std::uint64_t>(level) << 48;
 }
 
 /// OctoMap's name for a node: the key of its centre. Leaves at depth 16 are named by themselves, larger nodes by the

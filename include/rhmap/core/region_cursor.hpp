@@ -25,8 +25,7 @@ class RegionCursor {
 
   /// The same in the region of the last search, which must exist.
   const NODE* searchHere(std::uint64_t cell) const {
-    const NodeRef found = searchCell(region_, static_cast<int>(cell & (kCellsInBlock - 1))).node;
-    return found ? store_.node(found) : nullptr;
+    return store_.findNode(*region_, static_cast<int>(cell & (kCellsInBlock - 1)));
   }
 
   /// Around the last cell, the cube of 2^bits cells an edge in which every search finds the same; 0 in a region.
@@ -40,7 +39,7 @@ class RegionCursor {
     region_ = store_.findRegion(key);
     if (region_ == nullptr) {
       const Found found = store_.searchAbove(key, kRegionLevel);
-      whole_ = found.node ? store_.node(found.node) : nullptr;
+      whole_ = store_.nodeOrNull(found.node);
       bits_ = found.bits;
     }
     outside_ = cell_word::outsideOfCube(std::max(bits_, 3));

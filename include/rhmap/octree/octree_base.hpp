@@ -119,7 +119,7 @@ class OcTreeBaseImpl : public INTERFACE {
 
   /// The node at `depth` (0: cells, i.e. 16) or the shallower leaf that contains it; null where unknown.
   NODE* search(const OcTreeKey& key, unsigned depth = 0) const {
-    return nodeOrNull(store_->search(key, depth == 0 ? kTreeDepth : depth));
+    return depth % kTreeDepth == 0 ? store_->findNode(key) : searchAtDepth(key, depth);
   }
   NODE* search(const point3d& value, unsigned depth = 0) const {
     OcTreeKey key;
@@ -298,7 +298,12 @@ class OcTreeBaseImpl : public INTERFACE {
     return [this](NodeRef at) { expandNode(store_->node(at)); };
   }
 
-  NODE* nodeOrNull(NodeRef at) const { return at ? store_->node(at) : nullptr; }
+  NODE* nodeOrNull(NodeRef at) const { return store_->nodeOrNull(at); }
+
+  /// search() at other depths than the cells': apart from it, so that it stays short.
+  [[gnu::noinline]] NODE* searchAtDepth(const OcTreeKey& key, unsigned depth) const {
+    return nodeOrNull(store_->search(key, depth));
+  }
 
   Octet<NODE> childrenOf(const NODE* node) const {
     const NodeRef at = store_->locate(node);
