@@ -48,7 +48,9 @@ inline std::uint64_t keyWord(const OcTreeKey& key) {
 /// Morton index (x lowest bit) of the cell that holds `key` within its block of this level: 0 ... 511. Inlined by force,
 /// like blockKey(): the level is a constant where it counts.
 [[gnu::always_inline]] inline int cellIndex(const OcTreeKey& key, int level) {
-  std::uint64_t all = keyWord(key) >> cellShift(level) & 0x0007'0007'0007;
+  const int shift = cellShift(level);
+  const std::uint64_t three_bits = 0xffffU & 7U << shift;  // of an axis; at level 0 there is but one
+  std::uint64_t all = (keyWord(key) & three_bits * 0x1'0001'0001) >> shift;
   all = (all | all << 2 | all << 4) & 0x0049'0049'0049;  // spread3 of the three at once
   return static_cast<int>(all * 0x1'0002'0004 >> 32 & (kCellsInBlock - 1));
 }
