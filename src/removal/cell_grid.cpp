@@ -11,8 +11,8 @@ std::uint64_t upright(std::uint64_t cells) { return cells & cells << 1 & cells >
 
 // The loops below have no branches, so that they become vector code.
 
-CellGrid CellGrid::eroded() const {
-  CellGrid result(x0_, y0_, z0_, side_);
+CellGrid CellGrid::eroded(CellGrid result) const {
+  result.resetTo(*this);
   const auto side = static_cast<std::size_t>(side_);
   std::vector<std::uint64_t> along_y(side);
   for (std::size_t y = 1; y + 1 < side; ++y) {
@@ -24,8 +24,8 @@ CellGrid CellGrid::eroded() const {
   return result;
 }
 
-CellGrid CellGrid::erodedToOneSide() const {
-  CellGrid result(x0_, y0_, z0_, side_);
+CellGrid CellGrid::erodedToOneSide(CellGrid result) const {
+  result.resetTo(*this);
   const auto side = static_cast<std::size_t>(side_);
   std::vector<std::uint64_t> before(side), here(side), after(side), along_y(side);
   for (std::size_t y = 1; y + 1 < side; ++y) {
@@ -45,8 +45,8 @@ CellGrid CellGrid::erodedToOneSide() const {
   return result;
 }
 
-CellGrid CellGrid::dilated() const {
-  CellGrid result(x0_, y0_, z0_, side_);
+CellGrid CellGrid::dilated(CellGrid result) const {
+  result.resetTo(*this);
   for (int y = 1; y + 1 < side_; ++y) {
     for (int x = 1; x + 1 < side_; ++x) {
       std::uint64_t any = word(x, y);

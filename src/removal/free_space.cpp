@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdlib>
+#include <utility>
 
 namespace rhmap {
 namespace {
@@ -125,7 +126,7 @@ void FreeSpace::markHits(const RegionMap& map, const ScanTrace& trace, const std
 /// These cells and those around them are void no longer.
 void FreeSpace::fill(const CellGrid& cells) {
   if (cells.empty()) return;
-  const CellGrid filled = cells.dilated();
+  const CellGrid& filled = filled_ = cells.dilated(std::move(filled_));
   std::size_t number = 0;
   for (int ty = 0; ty < filled.side(); ty += 8) {
     for (int tx = 0; tx < filled.side(); tx += 8, ++number) {
@@ -154,8 +155,9 @@ void FreeSpace::forgetHit() {
 /// Takes the scan's cells into the tiles' counters, finds the void, and what has come to stay there: cells that are hit
 /// again and again, and that no ray crosses any more.
 void FreeSpace::update() {
-  const CellGrid clear = crossed_.eroded(), open = crossed_.erodedToOneSide();
-  CellGrid stayed(ends_.x0(), ends_.y0(), ends_.z0(), ends_.side());
+  clear_ = crossed_.eroded(std::move(clear_));
+  open_ = crossed_.erodedToOneSide(std::move(open_));
+  stayed_.resetTo(ends_);
   forEachTile([&](Tile& tile, int tx, int ty) {
     for (int i = 0; i < 64; ++i) {
       const int cx = tx + i % 8, cy = ty + i / 8;
@@ -164,17 +166,17 @@ void FreeSpace::update() {
         Counters<8>& hits = tile.hits[static_cast<std::size_t>(i)];
         hits.reset(ends & column.crossed.atLeast(1));
         hits.countUp(ends);
-        stayed.word(cx, cy) =
+        stayed_.word(cx, cy) =
             ends & (column.is_void | column.is_open) & hits.atLeast(static_cast<unsigned>(config_.tau_r));
       }
       column.crossed.reset(hit_.word(cx, cy));
       column.crossed.countUp(crossed_.word(cx, cy));
       const std::uint64_t often = column.crossed.atLeast(static_cast<unsigned>(config_.tau_f));
-      column.is_void |= clear.word(cx, cy) & often;
-      column.is_open |= open.word(cx, cy) & often;
+      column.is_void |= clear_.word(cx, cy) & often;
+      column.is_open |= open_.word(cx, cy) & often;
     }
   });
-  fill(stayed);
+  fill(stayed_);
 }
 
 void FreeSpace::forgetBeyond(const OcTreeKey& centre, int distance) {

@@ -95,6 +95,8 @@ class FreeSpace {
   CellGrid ends_;              // of the scan: where its points are
   CellGrid hit_;               // and where with noise the surface may be
   CellGrid crossed_;           // by its rays
+  CellGrid clear_, open_;      // and all of a cell's neighbours with it, or but for one side
+  CellGrid stayed_, filled_;   // cells that are ordinary again, and those around them
   std::vector<Tile*> window_;  // those around the sensor, row by row; null where there is none
   BlockIndex<Tile> tiles_;
 };

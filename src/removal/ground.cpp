@@ -3,10 +3,10 @@
 
 #include <Eigen/Eigenvalues>
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstdlib>
 #include <limits>
-#include <vector>
 
 namespace rhmap {
 namespace {
@@ -19,13 +19,17 @@ LocalCube localCube(std::size_t octant, int bit) {
   return {cube[0], cube[1], cube[2]};
 }
 
-/// Through the mean of the cubes, normal to the direction of least spread; nothing if it is steeper than allowed.
-std::optional<Plane> principalPlane(std::span<const LocalCube> cubes, double min_upright) {
+/// Of the cubes that count: through their mean, normal to the direction of least spread; nothing if there are too few or
+/// it is steeper than allowed.
+template <class Counts>
+std::optional<Plane> principalPlane(std::span<const LocalCube> cubes, const GroundConfig& config, Counts&& counts) {
   int n = 0, x = 0, y = 0, z = 0, xx = 0, xy = 0, xz = 0, yy = 0, yz = 0, zz = 0;
   for (const LocalCube& c : cubes) {
+    if (!counts(c)) continue;
     ++n, x += c.x, y += c.y, z += c.z;
     xx += c.x * c.x, xy += c.x * c.y, xz += c.x * c.z, yy += c.y * c.y, yz += c.y * c.z, zz += c.z * c.z;
   }
+  if (n < config.min_cubes) return std::nullopt;
   const Eigen::Vector3d mean = Eigen::Vector3d(x, y, z) / n;
   Eigen::Matrix3d covariance;
   covariance << xx, xy, xz, xy, yy, yz, xz, yz, zz;
@@ -34,7 +38,7 @@ std::optional<Plane> principalPlane(std::span<const LocalCube> cubes, double min
   solver.computeDirect(covariance);
   Eigen::Vector3d normal = solver.eigenvectors().col(0);
   if (normal.z() < 0) normal = -normal;
-  if (!(normal.z() >= min_upright)) return std::nullopt;
+  if (!(normal.z() >= config.min_upright)) return std::nullopt;
   return Plane{.n = {static_cast<float>(normal.x()), static_cast<float>(normal.y()), static_cast<float>(normal.z())},
                .d = static_cast<float>(normal.dot(mean))};
 }
@@ -45,23 +49,13 @@ std::optional<Plane> fitGround(std::span<const LocalCube> cubes, const GroundCon
   double mean = 0;
   for (const LocalCube& c : cubes) mean += c.z;
   mean /= std::max<double>(1, static_cast<double>(cubes.size()));
-  std::vector<LocalCube> near;
   // Not above the mean, where the paper has "smaller than": a flat region of one layer has no smaller ones.
-  std::copy_if(cubes.begin(), cubes.end(), std::back_inserter(near), [&](const LocalCube& c) { return c.z <= mean; });
-  std::optional<Plane> plane;
-  for (int i = 0; i < config.iterations; ++i) {
-    if (plane) {
-      const auto r_gro = static_cast<float>(config.r_gro / resolution);
-      const auto distance = [&](const LocalCube& c) {
-        return std::fabs(plane->above(static_cast<float>(c.x), static_cast<float>(c.y), static_cast<float>(c.z)));
-      };
-      near.clear();
-      std::copy_if(cubes.begin(), cubes.end(), std::back_inserter(near),
-                   [&](const LocalCube& c) { return distance(c) < r_gro; });
-    }
-    if (near.size() < static_cast<std::size_t>(config.min_cubes)) return std::nullopt;
-    plane = principalPlane(near, config.min_upright);
-    if (!plane) return std::nullopt;
+  auto plane = principalPlane(cubes, config, [&](const LocalCube& c) { return c.z <= mean; });
+  const auto r_gro = static_cast<float>(config.r_gro / resolution);
+  for (int i = 1; plane && i < config.iterations; ++i) {
+    plane = principalPlane(cubes, config, [&, last = *plane](const LocalCube& c) {
+      return std::fabs(last.above(static_cast<float>(c.x), static_cast<float>(c.y), static_cast<float>(c.z))) < r_gro;
+    });
   }
   return plane;
 }
@@ -142,11 +136,12 @@ bool GroundEstimation::standsOut(const RegionMap& map, const Region& region, con
 }
 
 void GroundEstimation::fit(const RegionMap& map, Region& region) const {
-  std::vector<LocalCube> cubes;
+  std::array<LocalCube, 16 * 16 * 16> cubes;  // of the largest region
+  std::size_t n = 0;
   for (std::size_t o = 0; o < region.octants.size(); ++o)
-    forEachBit(region.octants[o].occupied, [&](int bit) { cubes.push_back(localCube(o, bit)); });
-  region.at_fit = static_cast<std::uint16_t>(cubes.size());
-  const std::optional<Plane> plane = fitGround(cubes, config_, resolution_);
+    forEachBit(region.octants[o].occupied, [&](int bit) { cubes[n++] = localCube(o, bit); });
+  region.at_fit = static_cast<std::uint16_t>(n);
+  const std::optional<Plane> plane = fitGround({cubes.data(), n}, config_, resolution_);
   region.fitted = plane && !standsOut(map, region, *plane);
   if (plane) region.plane = *plane;
 }

@@ -2,8 +2,8 @@
 #include "moving_hits.hpp"
 
 #include <cmath>
+#include <utility>
 
-#include "cell_counters.hpp"
 #include "evidence.hpp"
 
 namespace rhmap {
@@ -14,12 +14,12 @@ MovingHits::MovingHits(const RemovalConfig& config, double cube)
       least_new_(static_cast<int>(std::ceil(config.free_space.least_new / (cube * cube)))) {}
 
 std::size_t MovingHits::reject(const RegionMap& map, const ScanTrace& trace, const FreeSpace& free_space,
-                               std::vector<RemovedCubesOf>& removed) const {
+                               std::vector<RemovedCubesOf>& removed) {
   if (config_.look_back.enabled) lookBack(map, trace);
 
   // Seeds: cells with hits in the void, or with cubes that have come.
   const int shift = free_space.shift();
-  CellGrid moving(free_space.ends().x0(), free_space.ends().y0(), free_space.ends().z0(), free_space.ends().side());
+  moving_.resetTo(free_space.ends());
   bool any = false;
   trace.forEachHitOctant([&](const Region& region, std::size_t o, const Octant& octant) {
     std::uint64_t come = octant.appeared;
@@ -34,7 +34,7 @@ std::size_t MovingHits::reject(const RegionMap& map, const ScanTrace& trace, con
       const bool is_void = config_.free_space.enabled && (hit & ~octant.ground) != 0 &&
                            (free_space.isVoid(x, y, z) || (free_space.isOpen(x, y, z) && isNew(map, trace, region, o)));
       if ((come & hit) == 0 && !is_void) return;
-      moving.set(x, y, z);
+      moving_.set(x, y, z);
       any = true;
     });
   });
@@ -42,8 +42,9 @@ std::size_t MovingHits::reject(const RegionMap& map, const ScanTrace& trace, con
 
   // Growth within the scan.
   for (int step = 0; step < config_.free_space.growth; ++step) {
-    moving = moving.dilated();
-    moving.intersect(free_space.ends());
+    grown_ = moving_.dilated(std::move(grown_));
+    grown_.intersect(free_space.ends());
+    std::swap(moving_, grown_);
   }
   std::size_t rejected = 0;
   trace.forEachHitOctant([&](Region& region, std::size_t o, Octant& octant) {
@@ -51,7 +52,7 @@ std::size_t MovingHits::reject(const RegionMap& map, const ScanTrace& trace, con
     std::uint64_t out = 0;
     forEachCell(octant.hit & octant.occupied & ~octant.safe, corner, shift,
                 [&](const OcTreeKey& cell, std::uint64_t hit) {
-                  if (moving.at(cell[0] >> shift, cell[1] >> shift, cell[2] >> shift)) out |= hit;
+                  if (moving_.at(cell[0] >> shift, cell[1] >> shift, cell[2] >> shift)) out |= hit;
                 });
     if (out == 0) return;
     forEachBit(out, [&](int bit) {
@@ -74,27 +75,27 @@ bool MovingHits::isNew(const RegionMap& map, const ScanTrace& trace, const Regio
 }
 
 /// Octant::appeared: what is new and was seen through by past scans.
-void MovingHits::lookBack(const RegionMap& map, const ScanTrace& trace) const {
-  std::vector<CubesAt> fresh;
-  std::vector<Octant*> octants;
+void MovingHits::lookBack(const RegionMap& map, const ScanTrace& trace) {
+  fresh_.clear();
+  fresh_octants_.clear();
   trace.forEachHitOctant([&](Region& region, std::size_t o, Octant& octant) {
     const std::uint64_t cubes = octant.fresh & ~octant.ground;
     if (cubes == 0) return;
-    fresh.push_back({map.cornerOf(region, o), cubes});
-    octants.push_back(&octant);
+    fresh_.push_back({map.cornerOf(region, o), cubes});
+    fresh_octants_.push_back(&octant);
   });
-  std::vector<Counters<8>> seen(fresh.size()), contrary(fresh.size());
-  std::vector<CubeLooks> looks(fresh.size());
+  answers_.assign(fresh_.size(), {});
+  looks_.resize(fresh_.size());
   for (const Past& past : past_) {
-    past.visibility->look(past.view, fresh, looks);
-    for (std::size_t i = 0; i < looks.size(); ++i) {
-      seen[i].countUp(looks[i].seen_through);
-      contrary[i].countUp(looks[i].filled);
+    past.visibility->look(past.view, fresh_, looks_);
+    for (std::size_t i = 0; i < looks_.size(); ++i) {
+      answers_[i].seen.countUp(looks_[i].seen_through);
+      answers_[i].contrary.countUp(looks_[i].filled);
     }
   }
-  for (std::size_t i = 0; i < fresh.size(); ++i)
-    octants[i]->appeared = seen[i].atLeast(static_cast<unsigned>(config_.look_back.seen)) &
-                           ~contrary[i].atLeast(static_cast<unsigned>(config_.look_back.contrary) + 1);
+  for (std::size_t i = 0; i < fresh_.size(); ++i)
+    fresh_octants_[i]->appeared = answers_[i].seen.atLeast(static_cast<unsigned>(config_.look_back.seen)) &
+                                  ~answers_[i].contrary.atLeast(static_cast<unsigned>(config_.look_back.contrary) + 1);
 }
 
 void MovingHits::remember(std::uint32_t scan, const ScanContext& context) {

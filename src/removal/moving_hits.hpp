@@ -6,6 +6,8 @@
 #include <memory>
 #include <vector>
 
+#include "cell_counters.hpp"
+#include "cell_grid.hpp"
 #include "free_space.hpp"
 #include "scan_context.hpp"
 #include "scan_to_map.hpp"
@@ -22,7 +24,7 @@ class MovingHits {
   /// Takes the hits of what moves out of the regions. Cubes that the map had before are appended to `removed`. Returns
   /// the number of cubes taken out.
   std::size_t reject(const RegionMap& map, const ScanTrace& trace, const FreeSpace& free_space,
-                     std::vector<RemovedCubesOf>& removed) const;
+                     std::vector<RemovedCubesOf>& removed);
 
   /// A scan to look back at from now on.
   void remember(std::uint32_t scan, const ScanContext& context);
@@ -33,12 +35,24 @@ class MovingHits {
     std::shared_ptr<const Visibility> visibility;
   };
 
+  /// What past scans say of an octant's new cubes: how many have seen through each, or something at its place.
+  struct Answers {
+    Counters<8> seen, contrary;
+  };
+
   bool isNew(const RegionMap& map, const ScanTrace& trace, const Region& region, std::size_t o) const;
-  void lookBack(const RegionMap& map, const ScanTrace& trace) const;
+  void lookBack(const RegionMap& map, const ScanTrace& trace);
 
   RemovalConfig config_;
   int reach_, least_new_;  // in cubes
   std::deque<Past> past_;
+
+  // For one scan, and kept for their memory.
+  CellGrid moving_, grown_;     // cells of what moves
+  std::vector<CubesAt> fresh_;  // what is new to the map, and of each octant
+  std::vector<Octant*> fresh_octants_;
+  std::vector<CubeLooks> looks_;
+  std::vector<Answers> answers_;
 };
 
 }  // namespace rhmap

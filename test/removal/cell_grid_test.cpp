@@ -31,7 +31,7 @@ void forEachCellOfTheWindow(F&& visit) {
 bool isAtRim(int x, int y) { return x == kX || y == kY || x == kX + kSide - 1 || y == kY + kSide - 1; }
 
 TEST(CellGrid, ErodesToCellsWithAll26Neighbours) {
-  const CellGrid grid = randomGrid(10, 97), eroded = grid.eroded();
+  const CellGrid grid = randomGrid(10, 97), eroded = grid.eroded({});
   int left = 0;
   forEachCellOfTheWindow([&](int x, int y, int z) {
     bool all = true;
@@ -43,7 +43,7 @@ TEST(CellGrid, ErodesToCellsWithAll26Neighbours) {
 }
 
 TEST(CellGrid, ErodesToCellsWithAllNeighboursButForOneSide) {
-  const CellGrid grid = randomGrid(12, 90), eroded = grid.erodedToOneSide();
+  const CellGrid grid = randomGrid(12, 90), eroded = grid.erodedToOneSide({});
   int left = 0;
   forEachCellOfTheWindow([&](int x, int y, int z) {
     std::array<bool, 4> all{true, true, true, true};  // but for those at smaller x, larger x, smaller y, larger y
@@ -63,7 +63,7 @@ TEST(CellGrid, ErodesToCellsWithAllNeighboursButForOneSide) {
 }
 
 TEST(CellGrid, DilatesToCellsWithOneOf26NeighboursExceptFromTheRim) {
-  const CellGrid grid = randomGrid(11, 2), dilated = grid.dilated();
+  const CellGrid grid = randomGrid(11, 2), dilated = grid.dilated({});
   int found = 0;
   forEachCellOfTheWindow([&](int x, int y, int z) {
     bool any = false;
