@@ -19,8 +19,8 @@ LocalCube localCube(std::size_t octant, int bit) {
   return {cube[0], cube[1], cube[2]};
 }
 
-/// Of the cubes that count: through their mean, normal to the direction of least spread; nothing if there are too few or
-/// it is steeper than allowed.
+/// Of the cubes that count: through their mean, normal to the direction of least spread; nothing if there are too few
+/// or it is steeper than allowed.
 template <class Counts>
 std::optional<Plane> principalPlane(std::span<const LocalCube> cubes, const GroundConfig& config, Counts&& counts) {
   int n = 0, x = 0, y = 0, z = 0, xx = 0, xy = 0, xz = 0, yy = 0, yz = 0, zz = 0;

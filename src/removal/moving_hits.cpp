@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "moving_hits.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <utility>
 
@@ -11,7 +12,8 @@ namespace rhmap {
 MovingHits::MovingHits(const RemovalConfig& config, double cube)
     : config_(config),
       reach_(cubesAround(config.evidence.sure_reach, cube)),
-      least_new_(static_cast<int>(std::ceil(config.free_space.least_new / (cube * cube)))) {}
+      least_new_(static_cast<int>(std::ceil(config.free_space.least_new / (cube * cube)))),
+      least_come_(static_cast<int>(std::ceil(config.look_back.least / (cube * cube)))) {}
 
 std::size_t MovingHits::reject(const RegionMap& map, const ScanTrace& trace, const FreeSpace& free_space,
                                std::vector<RemovedCubesOf>& removed) {
@@ -19,33 +21,30 @@ std::size_t MovingHits::reject(const RegionMap& map, const ScanTrace& trace, con
 
   // Seeds: cells with hits in the void, or with cubes that have come.
   const int shift = free_space.shift();
-  moving_.resetTo(free_space.ends());
-  bool any = false;
+  in_void_.clear();
+  come_.clear();
   trace.forEachHitOctant([&](const Region& region, std::size_t o, const Octant& octant) {
     std::uint64_t come = octant.appeared;
     if (come != 0) {
       const Neighbourhood around =
           lookAround(map, map.cornerOf(region, o), kFarthestAround,
                      [&](const Region& r, const Octant& beside) { return r.scan == trace.scan ? beside.appeared : 0; });
-      if (!around.isMoving(config_.look_back.share)) come = 0;
+      if (around.moving < least_come_ || !around.isMoving(config_.look_back.share)) come = 0;
     }
     forEachCell(octant.hit, map.cornerOf(region, o), shift, [&](const OcTreeKey& corner, std::uint64_t hit) {
       const int x = corner[0] >> shift, y = corner[1] >> shift, z = corner[2] >> shift;
       const bool is_void = config_.free_space.enabled && (hit & ~octant.ground) != 0 &&
                            (free_space.isVoid(x, y, z) || (free_space.isOpen(x, y, z) && isNew(map, trace, region, o)));
-      if ((come & hit) == 0 && !is_void) return;
-      moving_.set(x, y, z);
-      any = true;
+      if (is_void) {
+        in_void_.push_back({x, y, z});
+      } else if ((come & hit) != 0) {
+        come_.push_back({x, y, z});
+      }
     });
   });
-  if (!any) return 0;
+  if (in_void_.empty() && come_.empty()) return 0;
 
-  // Growth within the scan.
-  for (int step = 0; step < config_.free_space.growth; ++step) {
-    grown_ = moving_.dilated(std::move(grown_));
-    grown_.intersect(free_space.ends());
-    std::swap(moving_, grown_);
-  }
+  growSeeds(free_space.ends());
   std::size_t rejected = 0;
   trace.forEachHitOctant([&](Region& region, std::size_t o, Octant& octant) {
     const OcTreeKey corner = map.cornerOf(region, o);
@@ -64,6 +63,21 @@ std::size_t MovingHits::reject(const RegionMap& map, const ScanTrace& trace, con
     region.remove(o, out);
   });
   return rejected;
+}
+
+/// Growth within the scan: so many steps from each kind of seeds.
+void MovingHits::growSeeds(const CellGrid& ends) {
+  moving_.resetTo(ends);
+  for (int steps = std::max(config_.free_space.growth, config_.look_back.growth);; --steps) {
+    if (steps == config_.free_space.growth)
+      for (const Cell& cell : in_void_) moving_.set(cell.x, cell.y, cell.z);
+    if (steps == config_.look_back.growth)
+      for (const Cell& cell : come_) moving_.set(cell.x, cell.y, cell.z);
+    if (steps == 0) return;
+    grown_ = moving_.dilated(std::move(grown_));
+    grown_.intersect(ends);
+    std::swap(moving_, grown_);
+  }
 }
 
 /// Whether much in and around an octant is new to the map and little is firm.

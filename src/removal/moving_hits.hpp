@@ -40,16 +40,22 @@ class MovingHits {
     Counters<8> seen, contrary;
   };
 
+  struct Cell {
+    int x, y, z;
+  };
+
   bool isNew(const RegionMap& map, const ScanTrace& trace, const Region& region, std::size_t o) const;
   void lookBack(const RegionMap& map, const ScanTrace& trace);
+  void growSeeds(const CellGrid& ends);
 
   RemovalConfig config_;
-  int reach_, least_new_;  // in cubes
+  int reach_, least_new_, least_come_;  // in cubes
   std::deque<Past> past_;
 
   // For one scan, and kept for their memory.
-  CellGrid moving_, grown_;     // cells of what moves
-  std::vector<CubesAt> fresh_;  // what is new to the map, and of each octant
+  std::vector<Cell> in_void_, come_;  // seeds
+  CellGrid moving_, grown_;           // cells of what moves
+  std::vector<CubesAt> fresh_;        // what is new to the map, and of each octant
   std::vector<Octant*> fresh_octants_;
   std::vector<CubeLooks> looks_;
   std::vector<Answers> answers_;

@@ -130,6 +130,8 @@ void validate(const RemovalConfig& c) {
   atLeast1("look_back.seen", c.look_back.seen);
   atLeast0("look_back.contrary", c.look_back.contrary);
   share("look_back.share", c.look_back.share);
+  atLeast0("look_back.least", c.look_back.least);
+  atLeast0("look_back.growth", c.look_back.growth);
   length("back_end.distance", c.back_end.distance);
   atLeast1("back_end.scans", c.back_end.scans);
   atLeast0("back_end.information", c.back_end.information);

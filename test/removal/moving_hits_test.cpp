@@ -3,6 +3,8 @@
 
 #include <gtest/gtest.h>
 
+#include <array>
+
 #include "ground.hpp"
 #include "range_image.hpp"
 #include "small_world.hpp"
@@ -18,13 +20,13 @@ class Place {
   explicit Place(const RemovalConfig& config = {})
       : config_(config), ground_(config.ground, kCube), free_space_(config.free_space, kCube), moving_(config, kCube) {}
 
-  /// A box of 1.4 m, 1.2 m wide, on the ground at x = 8 m if `box`; a screen of 3 m hides it if `screen`. Returns the
-  /// number of rejected cubes.
-  std::size_t scan(bool box, bool screen = false) {
+  /// A box of 1.4 m, 1.2 m wide, on the ground at x = 8 m if `box`; before it, at x = 5 m, a screen from y = -1.5 m on to
+  /// `screen_end`. Returns the number of rejected cubes.
+  std::size_t scan(bool box, float screen_end = -1.5F) {
     octomap::Pointcloud cloud = test::wallAndGround(16, 64, 1440);
-    if (screen) {
-      for (octomap::point3d& p : cloud)
-        if (p.x() > 5 && std::abs(p.y() / p.x() * 5) < 1.5F) p *= 5 / p.x();
+    for (octomap::point3d& p : cloud) {
+      const float y = p.y() / p.x() * 5;
+      if (p.x() > 5 && y > -1.5F && y < screen_end) p *= 5 / p.x();
     }
     if (box) {
       for (octomap::point3d& p : cloud) {
@@ -129,6 +131,46 @@ TEST(MovingHits, AreFoundByLookingBack) {
   }
 }
 
+TEST(MovingHits, HaveComeOnlyIfEnoughIsNew) {
+  for (const bool enough : {true, false}) {
+    RemovalConfig config;
+    config.free_space.enabled = false;
+    config.look_back.stride = 3;
+    config.look_back.least = enough ? 0.1 : 10;  // [m^2]; the box shows 1.7
+    Place place(config);
+    for (int i = 0; i < 6; ++i) place.scan(false);
+    EXPECT_EQ(place.scan(true) > 50, enough);
+  }
+}
+
+TEST(MovingHits, HaveComeWhereOneScanSawThroughIfThatIsAskedFor) {
+  for (const int seen : {1, 2}) {
+    RemovalConfig config;
+    config.free_space.enabled = false;
+    config.look_back.stride = 3;
+    config.look_back.seen = seen;
+    Place place(config);
+    for (int i = 0; i < 5; ++i) place.scan(false);  // one scan remembered
+    EXPECT_EQ(place.scan(true) > 50, seen == 1);
+  }
+}
+
+TEST(MovingHits, TakeAlongWhatIsSoManyStepsFromWhatHasCome) {
+  std::array<std::size_t, 3> rejected{};
+  for (int growth = 0; growth < 3; ++growth) {
+    RemovalConfig config;
+    config.free_space.enabled = false;
+    config.look_back.stride = 3;
+    config.look_back.growth = growth;
+    Place place(config);
+    for (int i = 0; i < 6; ++i) place.scan(false, 0.0F);  // one half of the box's place was hidden
+    rejected[static_cast<std::size_t>(growth)] = place.scan(true);
+  }
+  EXPECT_GT(rejected[0], 50U);
+  EXPECT_LT(rejected[0], rejected[1]);
+  EXPECT_LT(rejected[1], rejected[2]);
+}
+
 TEST(MovingHits, AreNotFoundByAVoidThatIsOff) {
   RemovalConfig config;
   config.free_space.enabled = false;
@@ -178,7 +220,7 @@ TEST(MovingHits, AreNotFoundByLookingBackWhereThingsWereHidden) {
   RemovalConfig config;
   config.free_space.tau_f = 7;
   Place place(config);
-  for (int i = 0; i < 6; ++i) place.scan(false, true);
+  for (int i = 0; i < 6; ++i) place.scan(false, 1.5F);
   EXPECT_EQ(place.scan(true), 0U);
   EXPECT_GT(place.cubesOfBox(0.3, 1.3), 50);
 }

@@ -87,18 +87,20 @@ struct VoidConfig {
   int tau_f = 2;           ///< so many of these scans must have crossed a cell since its last hit; 1 to 7
   double least_new = 0.2;  ///< cells not crossed on one side count, too, where so much that is hit is new [m^2]
   int tau_r = 7;           ///< so many of them in a row must have hit a void cell to make it an ordinary one again
-  int growth = 2;          ///< steps (cells) from what moves to what belongs to it
-  int known = 3;           ///< but no cube that more scans than this have hit
+  int growth = 2;          ///< steps (cells) from what is hit in the void to what belongs to it
+  int known = 3;           ///< what moves takes no cube along that more scans than this have hit
 };
 
 /// Looking back: a cube that is new to the map, and that past scans saw through, holds something that has come.
 struct LookBackConfig {
   bool enabled = true;
-  int scans = 4;       ///< past scans that are asked
-  int stride = 6;      ///< scans from one of these to the next
-  int seen = 2;        ///< at least so many must have seen through the cube
-  int contrary = 1;    ///< and at most so many have seen something at its place
-  double share = 0.8;  ///< of the cubes around, new and firm ones, so many must be new in this way
+  int scans = 4;        ///< past scans that are asked
+  int stride = 12;      ///< scans from one of these to the next
+  int seen = 1;         ///< at least so many must have seen through the cube
+  int contrary = 1;     ///< and at most so many have seen something at its place
+  double share = 0.8;   ///< of the cubes around, new and firm ones, so many must be new in this way,
+  double least = 0.04;  ///< and so much [m^2]
+  int growth = 1;       ///< steps (cells of the void) from what has come to what belongs to it
 };
 
 /// The back end: keyframes that look at the map again when the sensor has moved on (Sec. III-D).
