@@ -8,12 +8,18 @@
 #include "evidence.hpp"
 
 namespace rhmap {
+namespace {
+
+constexpr double kOctantRadius = 2 * 1.7321;  // cubes
+
+}  // namespace
 
 MovingHits::MovingHits(const RemovalConfig& config, double cube)
     : config_(config),
       reach_(cubesAround(config.evidence.sure_reach, cube)),
       least_new_(static_cast<int>(std::ceil(config.free_space.least_new / (cube * cube)))),
-      least_come_(static_cast<int>(std::ceil(config.look_back.least / (cube * cube)))) {}
+      least_come_(static_cast<int>(std::ceil(config.look_back.least / (cube * cube)))),
+      nearest_(static_cast<float>(config.min_range / cube + kOctantRadius)) {}
 
 std::size_t MovingHits::reject(const RegionMap& map, const ScanTrace& trace, const FreeSpace& free_space,
                                std::vector<RemovedCubesOf>& removed) {
@@ -103,6 +109,7 @@ void MovingHits::lookBack(const RegionMap& map, const ScanTrace& trace) {
   for (const Past& past : past_) {
     past.visibility->look(past.view, fresh_, looks_);
     for (std::size_t i = 0; i < looks_.size(); ++i) {
+      if (isTooNear(past.view, fresh_[i].corner)) continue;
       answers_[i].seen.countUp(looks_[i].seen_through);
       answers_[i].contrary.countUp(looks_[i].filled);
     }
@@ -110,6 +117,16 @@ void MovingHits::lookBack(const RegionMap& map, const ScanTrace& trace) {
   for (std::size_t i = 0; i < fresh_.size(); ++i)
     fresh_octants_[i]->appeared = answers_[i].seen.atLeast(static_cast<unsigned>(config_.look_back.seen)) &
                                   ~answers_[i].contrary.atLeast(static_cast<unsigned>(config_.look_back.contrary) + 1);
+}
+
+/// Whether what a scan returned from an octant may have been left out as too near: it looks empty then.
+bool MovingHits::isTooNear(const SensorView& view, const OcTreeKey& corner) const {
+  float squared = 0;
+  for (unsigned axis = 0; axis < 3; ++axis) {
+    const float d = static_cast<float>(corner[axis]) + 1.5F - view.origin()[axis];
+    squared += d * d;
+  }
+  return squared < nearest_ * nearest_;
 }
 
 void MovingHits::remember(std::uint32_t scan, const ScanContext& context) {

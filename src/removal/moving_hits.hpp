@@ -46,10 +46,12 @@ class MovingHits {
 
   bool isNew(const RegionMap& map, const ScanTrace& trace, const Region& region, std::size_t o) const;
   void lookBack(const RegionMap& map, const ScanTrace& trace);
+  bool isTooNear(const SensorView& view, const OcTreeKey& corner) const;
   void growSeeds(const CellGrid& ends);
 
   RemovalConfig config_;
   int reach_, least_new_, least_come_;  // in cubes
+  float nearest_;                       // an octant's middle must be this far away to be known empty [cubes]
   std::deque<Past> past_;
 
   // For one scan, and kept for their memory.

@@ -171,6 +171,18 @@ TEST(MovingHits, TakeAlongWhatIsSoManyStepsFromWhatHasCome) {
   EXPECT_LT(rejected[1], rejected[2]);
 }
 
+TEST(MovingHits, AreNotFoundByLookingBackWhereReturnsWereTooNearToCount) {
+  for (const double min_range : {7.0, 9.0}) {  // [m]; the box is 8 m away
+    RemovalConfig config;
+    config.free_space.enabled = false;
+    config.look_back.stride = 3;
+    config.min_range = min_range;
+    Place place(config);
+    for (int i = 0; i < 6; ++i) place.scan(false);
+    EXPECT_EQ(place.scan(true) > 50, min_range < 8);
+  }
+}
+
 TEST(MovingHits, AreNotFoundByAVoidThatIsOff) {
   RemovalConfig config;
   config.free_space.enabled = false;
