@@ -59,8 +59,7 @@ class CellGrid {
     return std::all_of(words_.begin(), words_.end(), [](std::uint64_t word) { return word == 0; });
   }
 
-  // Each in the memory of a grid that is no longer needed: fresh memory for half a megabyte takes longer than filling
-  // it.
+  // Each in the memory of a grid that is no longer needed: to get half a megabyte takes longer than to fill it.
   /// The cells whose 26 neighbours are all set as well; none at the window's rim.
   CellGrid eroded(CellGrid memory) const;
   /// The cells whose neighbours are all set as well, but for those on one of the four sides.

@@ -126,17 +126,17 @@ void FreeSpace::markHits(const RegionMap& map, const ScanTrace& trace, const std
 /// These cells and those around them are void no longer.
 void FreeSpace::fill(const CellGrid& cells) {
   if (cells.empty()) return;
-  const CellGrid& filled = filled_ = cells.dilated(std::move(filled_));
+  filled_ = cells.dilated(std::move(filled_));
   std::size_t number = 0;
-  for (int ty = 0; ty < filled.side(); ty += 8) {
-    for (int tx = 0; tx < filled.side(); tx += 8, ++number) {
+  for (int ty = 0; ty < filled_.side(); ty += 8) {
+    for (int tx = 0; tx < filled_.side(); tx += 8, ++number) {
       Tile* tile = window_[number];
       if (tile == nullptr) continue;
-      tile->moveTo(filled.z0());
+      tile->moveTo(filled_.z0());
       for (int i = 0; i < 64; ++i) {
         CellColumn& column = tile->columns[static_cast<std::size_t>(i)];
-        column.is_void &= ~filled.word(tx + i % 8, ty + i / 8);
-        column.is_open &= ~filled.word(tx + i % 8, ty + i / 8);
+        column.is_void &= ~filled_.word(tx + i % 8, ty + i / 8);
+        column.is_open &= ~filled_.word(tx + i % 8, ty + i / 8);
       }
     }
   }

@@ -2,7 +2,6 @@
 #include "moving_hits.hpp"
 
 #include <algorithm>
-#include <cmath>
 #include <utility>
 
 #include "evidence.hpp"
@@ -17,8 +16,8 @@ constexpr double kOctantRadius = 2 * 1.7321;  // cubes
 MovingHits::MovingHits(const RemovalConfig& config, double cube)
     : config_(config),
       reach_(cubesAround(config.evidence.sure_reach, cube)),
-      least_new_(static_cast<int>(std::ceil(config.free_space.least_new / (cube * cube)))),
-      least_come_(static_cast<int>(std::ceil(config.look_back.least / (cube * cube)))),
+      least_new_(config.free_space.least_new / (cube * cube)),
+      least_come_(config.look_back.least / (cube * cube)),
       nearest_(static_cast<float>(config.min_range / cube + kOctantRadius)) {}
 
 std::size_t MovingHits::reject(const RegionMap& map, const ScanTrace& trace, const FreeSpace& free_space,

@@ -50,8 +50,10 @@ class MovingHits {
   void growSeeds(const CellGrid& ends);
 
   RemovalConfig config_;
-  int reach_, least_new_, least_come_;  // in cubes
-  float nearest_;                       // an octant's middle must be this far away to be known empty [cubes]
+  // In cubes.
+  int reach_;
+  double least_new_, least_come_;
+  float nearest_;  // an octant's middle must be this far away to be known empty
   std::deque<Past> past_;
 
   // For one scan, and kept for their memory.

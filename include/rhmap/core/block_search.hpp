@@ -13,8 +13,8 @@ struct Found {
 };
 
 /// Where a search for a cell ends in a block. A search is as fast as it is short: the fewer instructions it has, the more
-/// searches does a processor have under way while one of them waits for memory. Hence all here is inlined by force, and
-/// what it finds stays in registers.
+/// searches does a processor have under way while one of them waits for memory. Hence what finds the place is inlined by
+/// force, and the place stays in registers.
 struct CellPlace {
   unsigned octet;  ///< 0 ... 72
   unsigned child;  ///< 0 ... 7
