@@ -77,6 +77,16 @@ TEST(CellGrid, DilatesToCellsWithOneOf26NeighboursExceptFromTheRim) {
   EXPECT_GT(found, 1000);
 }
 
+TEST(CellGrid, DoesNotMindWhatWasInTheMemoryItIsGiven) {
+  const CellGrid grid = randomGrid(15, 50), other = randomGrid(16, 50);
+  const auto expectEqual = [](const CellGrid& a, const CellGrid& b) {
+    forEachCellOfTheWindow([&](int x, int y, int z) { ASSERT_EQ(a.at(x, y, z), b.at(x, y, z)); });
+  };
+  expectEqual(grid.eroded(other), grid.eroded({}));
+  expectEqual(grid.erodedToOneSide(other), grid.erodedToOneSide({}));
+  expectEqual(grid.dilated(other), grid.dilated({}));
+}
+
 TEST(CellGrid, IntersectsCellByCell) {
   const CellGrid a = randomGrid(12, 50), b = randomGrid(13, 50);
   CellGrid both = a;

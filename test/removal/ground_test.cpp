@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
 #include <vector>
 
 #include "small_world.hpp"
@@ -32,6 +33,17 @@ TEST(GroundPlane, OfOneLayerIsLevel) {  // no cube is lower than the mean
   ASSERT_TRUE(plane);
   EXPECT_NEAR(plane->n[2], 1, 1e-6);
   EXPECT_NEAR(plane->above(3, 3, 2), 0, 1e-5);
+}
+
+TEST(GroundPlane, IsNotDrawnUpByWhatStandsOnTheGround) {
+  std::vector<LocalCube> cubes = slope(0, 0);
+  for (int x = 5; x < 8; ++x)
+    for (int y = 0; y < 8; ++y)
+      for (int z = 3; z < 8; ++z) cubes.push_back({x, y, z});
+  const auto plane = fitGround(cubes, {}, kCube);
+  ASSERT_TRUE(plane);
+  EXPECT_GT(plane->n[2], 0.99);
+  EXPECT_LT(std::fabs(plane->above(1, 4, 2)), 1);
 }
 
 TEST(GroundPlane, IsNoneOfAWallNorOfAFewCubes) {
