@@ -16,6 +16,7 @@ struct Found {
 /// searches does a processor have under way while one of them waits for memory. Hence what finds the place is inlined by
 /// force, and the place stays in registers.
 struct CellPlace {
+  unsigned up;     ///< depths above the cells: 0 if the cell's octet exists; 1 if not, but its middle octet does; else 2
   unsigned octet;  ///< 0 ... 72
   unsigned child;  ///< 0 ... 7
   unsigned mask;   ///< of that octet
@@ -24,20 +25,16 @@ struct CellPlace {
   int slot() const { return static_cast<int>(octet * 8 + child); }
 };
 
-/// Depths above the cells at which a search for a cell ends: 0 if its octet exists; 1 if not, but its middle octet does.
-[[gnu::always_inline]] inline unsigned depthsUp(const Block& block, unsigned cell) {
-  const unsigned cells = block.mask[cell >> 3];
-  const unsigned middles = block.mask[kMiddleOctet + (cell >> 6)];
-  return (cells == 0) + ((cells | middles) == 0);
-}
-
 /// The place where a search for a cell ends that no other block lies below. Without branches: at which of the three
 /// depths a ray or a cloud meets the map is anybody's guess.
-[[gnu::always_inline]] inline CellPlace placeOf(const Block& block, unsigned cell, unsigned up) {
+[[gnu::always_inline]] inline CellPlace placeOf(const Block& block, unsigned cell) {
   static constexpr std::uint8_t kFirstOctet[] = {0, kMiddleOctet, kTopOctet};
+  const unsigned cells = block.mask[cell >> 3];
+  const unsigned middles = block.mask[kMiddleOctet + (cell >> 6)];
+  const unsigned up = (cells == 0) + ((cells | middles) == 0);
   const unsigned index = cell >> (3 * up);
   const unsigned octet = kFirstOctet[up] + (index >> 3);
-  return {octet, index & 7, block.mask[octet]};
+  return {up, octet, index & 7, block.mask[octet]};
 }
 
 /// The node in a slot, or the leaf of the same block that contains it; empty if unknown.
@@ -50,9 +47,8 @@ inline NodeRef searchIn(Block* block, int slot) {
 
 /// The same for a cell that no other block lies below.
 inline Found searchCell(Block* block, int cell) {
-  const unsigned up = depthsUp(*block, static_cast<unsigned>(cell));
-  const CellPlace place = placeOf(*block, static_cast<unsigned>(cell), up);
-  return {place.exists() ? NodeRef{block, place.slot()} : NodeRef{}, static_cast<int>(up)};
+  const CellPlace place = placeOf(*block, static_cast<unsigned>(cell));
+  return {place.exists() ? NodeRef{block, place.slot()} : NodeRef{}, static_cast<int>(place.up)};
 }
 
 }  // namespace rhmap

@@ -71,12 +71,13 @@ class BlockStore {
   }
   /// The same for a cell of this region.
   [[gnu::always_inline]] NODE* findNode(const Block& region, int cell) const {
-    const auto index = static_cast<unsigned>(cell);
-    const CellPlace place = placeOf(region, index, depthsUp(region, index));
+    const CellPlace place = placeOf(region, static_cast<unsigned>(cell));
     return place.exists() ? nodes_.nodes(region.octet[place.octet]) + place.child : nullptr;
   }
   /// The same where there is no region.
-  [[gnu::noinline]] NODE* findNodeAbove(const OcTreeKey& key) const { return nodeOrNull(searchAbove(key, kRegionLevel).node); }
+  [[gnu::noinline]] NODE* findNodeAbove(const OcTreeKey& key) const {
+    return nodeOrNull(searchAbove(key, kRegionLevel).node);
+  }
 
   /// The node at `depth` around `key`, or the shallower leaf that contains it; empty if unknown.
   NodeRef search(const OcTreeKey& key, unsigned depth = kTreeDepth) const {
