@@ -15,6 +15,7 @@ namespace rhmap {
 struct Neighbourhood {
   int moving = 0;  ///< cubes that speak for something that has moved
   int firm = 0;    ///< cubes that stand
+  int others = 0;  ///< cubes that are there besides, but for the ground
 
   /// A share of none is none.
   bool isMoving(double share) const { return moving > 0 && moving >= share * (moving + firm); }
@@ -48,8 +49,8 @@ inline constexpr auto kNearSides = [] {
   return sides;
 }();
 
-/// Sums up an octant (its lowest cube) and so many cubes (1 to 4) around it. `movingIn(region, octant)` gives the
-/// octant's cubes of the first kind.
+/// Sums up an octant (its lowest cube) and so many cubes (1 to 4) around it. `movingIn(region, o)` gives the cubes
+/// of the first kind in the region's octant `o`.
 template <class MovingIn>
 Neighbourhood lookAround(const RegionMap& map, const OcTreeKey& corner, int reach, MovingIn&& movingIn) {
   Neighbourhood around;
@@ -75,14 +76,17 @@ Neighbourhood lookAround(const RegionMap& map, const OcTreeKey& corner, int reac
         const Region* region = regionAt(x >> map.bits(), y >> map.bits(), z >> map.bits());
         if (region == nullptr) continue;
         const OcTreeKey at(static_cast<key_type>(x), static_cast<key_type>(y), static_cast<key_type>(z));
-        const Octant& octant = region->octants[map.octantOf(at)];
+        const std::size_t o = map.octantOf(at);
+        const Octant& octant = region->octants[o];
         const std::uint64_t within = near[0][static_cast<std::size_t>(dx + 1)] &
                                      near[1][static_cast<std::size_t>(dy + 1)] &
                                      near[2][static_cast<std::size_t>(dz + 1)];
-        const std::uint64_t moving = movingIn(*region, octant) & within;
+        const std::uint64_t moving = movingIn(*region, o) & within;
         const std::uint64_t firm = octant.firm & ~octant.doubted & ~octant.ground & ~moving & within;
         if (moving != 0) around.moving += std::popcount(moving);  // most have none of either
         if (firm != 0) around.firm += std::popcount(firm);
+        const std::uint64_t others = octant.occupied & ~octant.ground & ~moving & ~firm & within;
+        if (others != 0) around.others += std::popcount(others);
       }
     }
   }

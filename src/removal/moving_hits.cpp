@@ -22,6 +22,7 @@ MovingHits::MovingHits(const RemovalConfig& config, double cube)
 
 std::size_t MovingHits::reject(const RegionMap& map, const ScanTrace& trace, const FreeSpace& free_space,
                                std::vector<RemovedCubesOf>& removed) {
+  rejected_from_.clear();
   if (config_.look_back.enabled) lookBack(map, trace);
 
   // Seeds: cells with hits in the void, or with cubes that have come.
@@ -33,7 +34,7 @@ std::size_t MovingHits::reject(const RegionMap& map, const ScanTrace& trace, con
     if (come != 0) {
       const Neighbourhood around =
           lookAround(map, map.cornerOf(region, o), kFarthestAround,
-                     [&](const Region& r, const Octant& beside) { return r.scan == trace.scan ? beside.appeared : 0; });
+                     [&](const Region& r, std::size_t n) { return r.scan == trace.scan ? r.octants[n].appeared : 0; });
       if (around.moving < least_come_ || !around.isMoving(config_.look_back.share)) come = 0;
     }
     forEachCell(octant.hit, map.cornerOf(region, o), shift, [&](const OcTreeKey& corner, std::uint64_t hit) {
@@ -60,12 +61,13 @@ std::size_t MovingHits::reject(const RegionMap& map, const ScanTrace& trace, con
                 });
     if (out == 0) return;
     forEachBit(out, [&](int bit) {
-      if (region.counts[o][static_cast<std::size_t>(bit)].hits > config_.free_space.known) out &= ~maskOf(bit);
+      if (region.past[o].counts[static_cast<std::size_t>(bit)].hits > config_.free_space.known) out &= ~maskOf(bit);
     });
     if (out == 0) return;
     rejected += static_cast<std::size_t>(std::popcount(out));
     if (const std::uint64_t known = out & ~octant.fresh; known != 0) removed.push_back({corner, known, false});
     region.remove(o, out);
+    rejected_from_.push_back(corner);
   });
   return rejected;
 }
@@ -87,9 +89,10 @@ void MovingHits::growSeeds(const CellGrid& ends) {
 
 /// Whether much in and around an octant is new to the map and little is firm.
 bool MovingHits::isNew(const RegionMap& map, const ScanTrace& trace, const Region& region, std::size_t o) const {
-  const Neighbourhood around = lookAround(
-      map, map.cornerOf(region, o), reach_,
-      [&](const Region& r, const Octant& octant) { return r.scan == trace.scan ? octant.fresh & ~octant.ground : 0; });
+  const Neighbourhood around =
+      lookAround(map, map.cornerOf(region, o), reach_, [&](const Region& r, std::size_t n) -> std::uint64_t {
+        return r.scan == trace.scan ? r.octants[n].fresh & ~r.octants[n].ground : 0;
+      });
   return around.moving >= least_new_ && around.isMoving(config_.evidence.share);
 }
 
@@ -109,7 +112,7 @@ void MovingHits::lookBack(const RegionMap& map, const ScanTrace& trace) {
     past.visibility->look(past.view, fresh_, looks_);
     for (std::size_t i = 0; i < looks_.size(); ++i) {
       if (isTooNear(past.view, fresh_[i].corner)) continue;
-      answers_[i].seen.countUp(looks_[i].seen_through);
+      answers_[i].seen.countUp(looks_[i].seen_through | looks_[i].skimmed);
       answers_[i].contrary.countUp(looks_[i].filled);
     }
   }

@@ -26,6 +26,9 @@ class MovingHits {
   std::size_t reject(const RegionMap& map, const ScanTrace& trace, const FreeSpace& free_space,
                      std::vector<RemovedCubesOf>& removed);
 
+  /// The octants (their lowest cubes) that the last call has taken hits out of.
+  const std::vector<OcTreeKey>& rejectedFrom() const { return rejected_from_; }
+
   /// A scan to look back at from now on.
   void remember(std::uint32_t scan, const ScanContext& context);
 
@@ -55,6 +58,7 @@ class MovingHits {
   double least_new_, least_come_;
   float nearest_;  // an octant's middle must be this far away to be known empty
   std::deque<Past> past_;
+  std::vector<OcTreeKey> rejected_from_;
 
   // For one scan, and kept for their memory.
   std::vector<Cell> in_void_, come_;  // seeds

@@ -26,32 +26,35 @@ void Region::remove(std::size_t octant, std::uint64_t old_cubes) {
   from.firm &= ~old_cubes;
   cubes = static_cast<std::uint16_t>(cubes - std::popcount(old_cubes));
   column->stale = true;
-  forEachBit(old_cubes, [&](int bit) { counts[octant][static_cast<std::size_t>(bit)] = {}; });
+  OctantPast& of = past[octant];
+  of.gone |= old_cubes;
+  of.filled.reset(old_cubes);
+  forEachBit(old_cubes, [&](int bit) { of.counts[static_cast<std::size_t>(bit)] = {}; });
 }
 
 RegionMap::RegionMap(int size, Reader read)
     : bits_(std::countr_zero(static_cast<unsigned>(size))),
       read_(std::move(read)),
-      pool_(kRegionBytes + octants() * (sizeof(Octant) + sizeof(OctantCounts))) {}
+      pool_(kRegionBytes + octants() * (sizeof(Octant) + sizeof(OctantPast))) {}
 
 RegionMap::~RegionMap() {
   for (Column* column : in_order_) delete column;
 }
 
-/// One piece of memory: the region, its octants, their counts.
+/// One piece of memory: the region, its octants, their past.
 Region* RegionMap::makeRegion(Column& column, key_type z) {
   auto* memory = static_cast<std::byte*>(pool_.allocate());
   auto* first_octant = reinterpret_cast<Octant*>(memory + kRegionBytes);
   std::uninitialized_value_construct_n(first_octant, octants());
-  auto* first_counts = reinterpret_cast<OctantCounts*>(first_octant + octants());
-  std::uninitialized_value_construct_n(first_counts, octants());
+  auto* first_past = reinterpret_cast<OctantPast*>(first_octant + octants());
+  std::uninitialized_value_construct_n(first_past, octants());
   return new (memory) Region{.x = column.x,
                              .y = column.y,
                              .z = z,
                              .plane = {},
                              .column = &column,
                              .octants = {first_octant, octants()},
-                             .counts = {first_counts, octants()}};
+                             .past = {first_past, octants()}};
 }
 
 Column& RegionMap::getOrCreate(key_type x, key_type y) {

@@ -10,6 +10,7 @@
 #include <utility>
 #include <vector>
 
+#include "cell_counters.hpp"
 #include "rhmap/core/block_index.hpp"
 #include "rhmap/core/key.hpp"
 #include "rhmap/core/record_pool.hpp"
@@ -27,7 +28,7 @@ struct alignas(64) Octant {
   std::uint64_t ground = 0;    ///< of these, cubes of the ground
   std::uint64_t safe = 0;      ///< of these, cubes so near to its plane that they stay whatever happens
   std::uint64_t doubted = 0;   ///< of these, cubes that have been seen through since their last hit
-  std::uint64_t firm = 0;      ///< of these, cubes that many scans have hit
+  std::uint64_t firm = 0;      ///< of these, cubes that many scans have hit, or have seen something at
   // Of scan Region::scan:
   std::uint64_t hit = 0;       ///< cubes that it has hit
   std::uint64_t fresh = 0;     ///< of these, cubes that were not in the map before
@@ -40,12 +41,17 @@ struct CubesAt {
   std::uint64_t cubes;
 };
 
-/// What is counted of a cube, up to 255. Apart from the masks, which are read far more often.
+/// What is counted of a cube, up to 255.
 struct CubeCounts {
   std::uint8_t hits = 0;    ///< scans that have hit it
   std::uint8_t misses = 0;  ///< scans that have seen through it since its last hit
 };
-using OctantCounts = std::array<CubeCounts, 64>;
+/// What is remembered of an octant's cubes. Apart from the masks, which are read far more often.
+struct OctantPast {
+  std::array<CubeCounts, 64> counts{};
+  Counters<3> filled;      ///< looks that have seen something at its place
+  std::uint64_t gone = 0;  ///< cubes that have been taken out of the map; some may be there again
+};
 
 /// One more, up to 255.
 inline void countUp(std::uint8_t& counter) { counter = static_cast<std::uint8_t>(counter + (counter < 255)); }
@@ -73,7 +79,7 @@ struct Region {
   std::uint64_t loose_octants = 0;  ///< those that may have cubes that are not safe
   Column* column = nullptr;         ///< the one that it stands in
   std::span<Octant> octants;        ///< in Morton order
-  std::span<OctantCounts> counts;
+  std::span<OctantPast> past;
 
   /// Whether there are cubes that were not in the map before the scan that was the last to hit it.
   bool hasFresh() const {

@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <array>
 
+#include "leftovers.hpp"
 #include "rhmap/octree/scan_marking.hpp"
 #include "tree_reader.hpp"
 
@@ -83,18 +84,20 @@ ScanReport RhMap::Removal::process(const octomap::Pointcloud& points, const octo
 
   // What moves stays out. Beyond the paper
   RemovalResult result;
+  std::span<const OcTreeKey> rejected_from;
   if (insert && (config_.free_space.enabled || config_.look_back.enabled)) {
     free_space_.observe(regions_, trace, context.view.origin());
     report.rejected = moving_hits_.reject(regions_, trace, free_space_, result.removed);
+    rejected_from = moving_hits_.rejectedFrom();
     moving_hits_.remember(scan_, context);
   }
   clock.charge(Stage::kFreeSpace);
 
   // S2M-R. Sec. III-C.2
-  removeByScan(
-      regions_, context, config_, resolution_,
-      {.scan = scan_, .protect = config_.protect_hits, .revert_hits = 0, .everywhere = config_.evidence.everywhere},
-      result);
+  const LookConfig look{
+      .scan = scan_, .protect = config_.protect_hits, .revert_hits = 0, .everywhere = config_.evidence.everywhere};
+  removeByScan(regions_, context, config_, resolution_, look, result);
+  clearUp(rejected_from, look, result);
   clock.charge(Stage::kRemoval);
 
   if (insert) report.inserted = write(trace, points, pose);
@@ -136,13 +139,21 @@ ScanContext RhMap::Removal::contextOf(const octomap::pose6d& pose, ScanTrace& tr
 
 void RhMap::Removal::lookAgain(const ScanContext& keyframe, bool protect, ScanReport& report) {
   RemovalResult result;
-  removeByScan(regions_, keyframe, config_, resolution_,
-               {.scan = scan_,
-                .protect = protect && config_.protect_hits,
-                .revert_hits = config_.back_end.revert_hits,
-                .everywhere = false},
-               result);
+  const LookConfig look{.scan = scan_,
+                        .protect = protect && config_.protect_hits,
+                        .revert_hits = config_.back_end.revert_hits,
+                        .everywhere = false};
+  removeByScan(regions_, keyframe, config_, resolution_, look, result);
+  clearUp({}, look, result);
   erase(result, report);
+}
+
+/// What is left of that of which much has gone: from these octants, and from those of the result.
+void RhMap::Removal::clearUp(std::span<const OcTreeKey> octants, const LookConfig& look, RemovalResult& result) {
+  if (!config_.leftovers.enabled) return;
+  changed_.assign(octants.begin(), octants.end());
+  for (const RemovedCubesOf& removed : result.removed) changed_.push_back(removed.corner);
+  removeLeftovers(regions_, changed_, config_.leftovers, resolution_, look, result);
 }
 
 /// The hit cubes that are in the map, into the tree: as OctoMap's updateNode for each. Returns how many there are.

@@ -34,6 +34,7 @@ class RhMap::Removal {
   ScanContext contextOf(const octomap::pose6d& pose, ScanTrace& trace, const OcTreeKey& sensor,
                         const RangeImage& image) const;
   void lookAgain(const ScanContext& keyframe, bool protect, ScanReport& report);
+  void clearUp(std::span<const OcTreeKey> octants, const LookConfig& look, RemovalResult& result);
   std::size_t write(const ScanTrace& trace, const octomap::Pointcloud& points, const octomap::pose6d& pose);
   void forgetFree(const OcTreeKey& corner, std::uint64_t cubes);
   void markFree(const octomap::Pointcloud& points, const octomap::pose6d& pose);
@@ -53,6 +54,7 @@ class RhMap::Removal {
   std::uint32_t scan_ = 0;
   // Of the scan at hand; kept for their memory.
   ScanPoints points_;
+  std::vector<OcTreeKey> changed_;  // octants that have lost cubes, by their lowest
   ScanMasks cells_;
 };
 

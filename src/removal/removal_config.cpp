@@ -47,6 +47,7 @@ RemovalConfig paperProfile() {
   config.evidence.share = config.evidence.sure_share = 0;
   config.free_space.enabled = false;
   config.look_back.enabled = false;
+  config.leftovers.enabled = false;
   config.back_end.revert_hits = 0;
   return config;
 }
@@ -101,6 +102,8 @@ void validate(const RemovalConfig& c) {
   atLeast0("visibility.surface", c.visibility.surface);
   atLeast0("visibility.surface_share", c.visibility.surface_share);
   atLeast0("visibility.clearance", c.visibility.clearance);
+  atLeast0("visibility.skim", c.visibility.skim);
+  atLeast0("visibility.skim_from", c.visibility.skim_from);
   atLeast0("visibility.edge_share", c.visibility.edge_share);
   length("visibility.ball", c.visibility.ball);
   between(0, 16, "visibility.window", c.visibility.window, "between 0 and 16");
@@ -110,6 +113,7 @@ void validate(const RemovalConfig& c) {
   between(1, 255, "evidence.misses", c.evidence.misses, "between 1 and 255");
   between(1, 255, "evidence.sure_misses", c.evidence.sure_misses, "between 1 and 255");
   between(1, 255, "evidence.firm", c.evidence.firm, "between 1 and 255");
+  between(1, 7, "evidence.filled", c.evidence.filled, "between 1 and 7");
   share("evidence.share", c.evidence.share);
   atLeast0("evidence.enough", c.evidence.enough);
   atLeast0("evidence.sure_ratio", c.evidence.sure_ratio);
@@ -132,6 +136,10 @@ void validate(const RemovalConfig& c) {
   share("look_back.share", c.look_back.share);
   atLeast0("look_back.least", c.look_back.least);
   atLeast0("look_back.growth", c.look_back.growth);
+  length("leftovers.reach", c.leftovers.reach);
+  atLeast0("leftovers.least", c.leftovers.least);
+  share("leftovers.share", c.leftovers.share);
+  atLeast0("leftovers.others", c.leftovers.others);
   length("back_end.distance", c.back_end.distance);
   atLeast1("back_end.scans", c.back_end.scans);
   atLeast0("back_end.information", c.back_end.information);

@@ -156,13 +156,17 @@ class ScanToMapRemoval {
     std::size_t kept = 0;
     for (std::size_t d = 0; d < doubts_.size(); ++d) {
       Doubt doubt = doubts_[d];
-      const auto [filled, through] = looks[d];
+      const std::uint64_t filled = looks[d].filled, through = looks[d].seen_through;
       if ((filled | through) == 0) continue;
       Region& region = *doubt.region;
-      OctantCounts& counts = region.counts[doubt.octant];
-      forEachBit(through, [&](int bit) { countUp(counts[static_cast<std::size_t>(bit)].misses); });
-      forEachBit(filled, [&](int bit) { counts[static_cast<std::size_t>(bit)].misses = 0; });
+      OctantPast& past = region.past[doubt.octant];
       Octant& octant = region.octants[doubt.octant];
+      forEachBit(through, [&](int bit) { countUp(past.counts[static_cast<std::size_t>(bit)].misses); });
+      forEachBit(filled & octant.doubted, [&](int bit) { past.counts[static_cast<std::size_t>(bit)].misses = 0; });
+      if (const std::uint64_t loose = filled & ~octant.firm; loose != 0) {
+        past.filled.countUp(loose);
+        octant.firm |= past.filled.atLeast(static_cast<unsigned>(config_.evidence.filled));
+      }
       octant.doubted = (octant.doubted & ~filled) | through;
       region.noteDoubts(doubt.octant);
       if (through == 0) continue;
@@ -181,7 +185,7 @@ class ScanToMapRemoval {
       const Doubt& doubt = doubts_[d];
       std::uint64_t seen = 0, due = 0, sure = 0;
       forEachBit(doubt.cubes, [&](int bit) {
-        const auto [hits, misses] = doubt.region->counts[doubt.octant][static_cast<std::size_t>(bit)];
+        const auto [hits, misses] = doubt.region->past[doubt.octant].counts[static_cast<std::size_t>(bit)];
         if (look_.revert_hits > 0 && hits >= look_.revert_hits) return;
         seen |= maskOf(bit);
         if (misses >= doubt.misses) due |= maskOf(bit);
@@ -205,7 +209,7 @@ class ScanToMapRemoval {
 
   Neighbourhood doubtedAround(const Doubt& doubt, int reach) const {
     return lookAround(map_, map_.cornerOf(*doubt.region, doubt.octant), reach,
-                      [](const Region&, const Octant& o) { return o.doubted; });
+                      [](const Region& region, std::size_t o) { return region.octants[o].doubted; });
   }
 
   /// What goes with the cubes of its octant that go: the scan may never tell of it, where there is nothing behind or

@@ -61,6 +61,8 @@ Visibility::Visibility(const RangeImage& image, const ScanPoints& scan, const Vi
       surface_(static_cast<float>(config.surface)),
       surface_share_(static_cast<float>(config.surface_share)),
       clearance_(static_cast<float>(config.clearance)),
+      skim_(static_cast<float>(config.skim)),
+      skim_from_(static_cast<float>(config.skim_from)),
       edge_(static_cast<float>(1 + config.edge_share)),
       least_up_(config.window) {
   for (std::size_t i = 0; i < points_.size(); ++i) {
@@ -172,6 +174,7 @@ void Visibility::look(const SensorView& from, std::span<const CubesAt> places, s
         const Look look = at({x[i], y[i], z[i]}, range[i], pixels[i]);
         if (look == Look::kFilled) of.filled |= rest & -rest;
         if (look == Look::kSeenThrough) of.seen_through |= rest & -rest;
+        if (look == Look::kSkimmed) of.skimmed |= rest & -rest;
       }
     }
   }
@@ -222,12 +225,17 @@ Look Visibility::around(const Vector& p, float range, std::int32_t pixel) const 
 
   // Something nearer beside the cube: a surface may run from there to what is seen at the cube's own pixel. But not
   // from what stands in the next column to what is far behind it: the line between them all but meets the sensor, and
-  // walls are farther away.
+  // walls are farther away. Within a column, roofs level with the sensor run along such a line, though hardly for long.
   const float surface = std::max(surface_, surface_share_ * range);
+  bool skimmed = false;
   const auto isSurface = [&](const Vector& nearer, bool same_column) {
     const Vector& own = points_[centre];
-    return squaredDistanceToSegment(p, nearer, own) < surface * surface &&
-           (same_column || squaredDistanceOfLine(nearer, own) >= clearance_ * clearance_);
+    if (squaredDistanceToSegment(p, nearer, own) >= surface * surface) return false;
+    const float passes = squaredDistanceOfLine(nearer, own);
+    if (!same_column) return passes >= clearance_ * clearance_;
+    if (passes >= skim_ * skim_ || squared(minus(p, nearer)) < skim_from_ * skim_from_) return true;
+    skimmed = true;
+    return false;
   };
   const bool empty = ranges_[centre] == RangeImage::kEmpty;
   if (any([&](std::size_t at, int j) {
@@ -240,7 +248,8 @@ Look Visibility::around(const Vector& p, float range, std::int32_t pixel) const 
     return ranges_[at] > behind && ranges_[at] < RangeImage::kEmpty &&
            squaredDistanceOfRay(p, points_[at]) <= aside * aside;
   });
-  return seen ? Look::kSeenThrough : Look::kUnknown;
+  if (!seen) return Look::kUnknown;
+  return skimmed ? Look::kSkimmed : Look::kSeenThrough;
 }
 
 }  // namespace rhmap

@@ -38,12 +38,14 @@ enum class Look : std::int8_t {
   kFilled = -1,      ///< something is there, or as near as pixels can tell
   kUnknown = 0,      ///< hidden, outside of the image, or too near to a surface to tell
   kSeenThrough = 1,  ///< what is seen lies behind it
+  kSkimmed = 2,      ///< the same, unless a surface runs on along the line of sight, as a roof may
 };
 
 /// What a scan says about cubes of an octant; it does not know the others.
 struct CubeLooks {
   std::uint64_t filled = 0;
   std::uint64_t seen_through = 0;
+  std::uint64_t skimmed = 0;
 };
 
 /// Looks at cubes through a scan's range image.
@@ -85,7 +87,7 @@ class Visibility {
   std::vector<Farthest> farthest_;            // blocks of 4, 8, 16 ... pixels
   std::vector<int> middle_;                   // the step in the middle of each row
   std::vector<Window> windows_;               // for cubes so many steps away; beyond: the last
-  float behind_, before_, aside_, aside_share_, surface_, surface_share_, clearance_, edge_;
+  float behind_, before_, aside_, aside_share_, surface_, surface_share_, clearance_, skim_, skim_from_, edge_;
   int least_up_;  // rows of a window on each side
 };
 

@@ -22,7 +22,7 @@ TEST(LookAround, CountsTheCubesOfAnOctantAndSoManyAround) {
     RegionMap map = test::emptyMap(size);
     test::RandomCubes cubes(8, 16);
     std::mt19937 random(9);
-    std::vector<OcTreeKey> doubted, firm;
+    std::vector<OcTreeKey> doubted, firm, others;
     for (int i = 0; i < 4000; ++i) {
       const OcTreeKey cube = cubes();
       if (test::isOccupied(map, cube)) continue;
@@ -32,6 +32,7 @@ TEST(LookAround, CountsTheCubesOfAnOctantAndSoManyAround) {
       if (kind == 0) octant.doubted |= mask, doubted.push_back(cube);
       if (kind == 1) octant.firm |= mask, firm.push_back(cube);
       if (kind == 2) octant.firm |= mask, octant.ground |= mask;  // ground speaks for nothing
+      if (kind == 3) others.push_back(cube);
     }
     for (int i = 0; i < 60; ++i) {
       const OcTreeKey cube = cubes();
@@ -44,9 +45,10 @@ TEST(LookAround, CountsTheCubesOfAnOctantAndSoManyAround) {
         return true;
       };
       const Neighbourhood around =
-          lookAround(map, corner, reach, [](const Region&, const Octant& octant) { return octant.doubted; });
+          lookAround(map, corner, reach, [](const Region& region, std::size_t o) { return region.octants[o].doubted; });
       EXPECT_EQ(around.moving, std::count_if(doubted.begin(), doubted.end(), isNear));
       EXPECT_EQ(around.firm, std::count_if(firm.begin(), firm.end(), isNear));
+      EXPECT_EQ(around.others, std::count_if(others.begin(), others.end(), isNear));
     }
   }
 }
@@ -57,7 +59,7 @@ TEST(LookAround, EndsAtTheRimOfTheTree) {
       RegionMap map = test::emptyMap(size);
       const OcTreeKey corner(rim, rim, rim), opposite(static_cast<key_type>(0xfffc - rim), rim, rim);
       for (const OcTreeKey& cube : {corner, opposite}) test::occupy(map, cube).firm |= maskOf(bitOf(cube));
-      EXPECT_EQ(lookAround(map, corner, 4, [](const Region&, const Octant& o) { return o.doubted; }).firm, 1);
+      EXPECT_EQ(lookAround(map, corner, 4, [](const Region&, std::size_t) { return std::uint64_t{0}; }).firm, 1);
     }
   }
 }

@@ -20,8 +20,8 @@ class Place {
   explicit Place(const RemovalConfig& config = {})
       : config_(config), ground_(config.ground, kCube), free_space_(config.free_space, kCube), moving_(config, kCube) {}
 
-  /// A box of 1.4 m, 1.2 m wide, on the ground at x = 8 m if `box`; before it, at x = 5 m, a screen from y = -1.5 m on to
-  /// `screen_end`. Returns the number of rejected cubes.
+  /// A box of 1.4 m, 1.2 m wide, on the ground at x = 8 m if `box`; before it, at x = 5 m, a screen from y = -1.5 m on
+  /// to `screen_end`. Returns the number of rejected cubes.
   std::size_t scan(bool box, float screen_end = -1.5F) {
     octomap::Pointcloud cloud = test::wallAndGround(16, 64, 1440);
     for (octomap::point3d& p : cloud) {
@@ -43,6 +43,17 @@ class Place {
       if (p.x() > 3 && p.y() > 0.7F) p *= 0.7F / p.y();
       const octomap::point3d front = p * (8 / p.x());
       if (post && p.x() > 8 && std::abs(front.y() - 0.2F) < 0.15F && front.z() < -0.3F) p = front;
+    }
+    return insert(cloud);
+  }
+  /// A top 0.2 m high, level with the sensor and 1.2 m wide, at x = 14 m if `top`, behind a row of cars at x = 5 m that
+  /// are hardly lower.
+  std::size_t scanOverTops(bool top) {
+    octomap::Pointcloud cloud = test::wallAndGround(30, 64, 1440);
+    for (octomap::point3d& p : cloud) {
+      const octomap::point3d cars = p * (5 / p.x()), front = p * (14 / p.x());
+      if (top && p.x() > 14 && std::abs(front.y()) < 0.6F && front.z() < 0) p = front;
+      if (p.x() > 5 && cars.z() < -0.05F) p = cars;
     }
     return insert(cloud);
   }
@@ -152,6 +163,19 @@ TEST(MovingHits, HaveComeWhereOneScanSawThroughIfThatIsAskedFor) {
     Place place(config);
     for (int i = 0; i < 5; ++i) place.scan(false);  // one scan remembered
     EXPECT_EQ(place.scan(true) > 50, seen == 1);
+  }
+}
+
+TEST(MovingHits, HaveComeWherePastScansSkimmed) {
+  for (const bool skims : {true, false}) {
+    RemovalConfig config;
+    config.free_space.enabled = false;
+    config.look_back.stride = 3;
+    config.ground.enabled = false;  // to which a single row would look like the ground
+    if (!skims) config.visibility.skim = 0;
+    Place place(config);
+    for (int i = 0; i < 6; ++i) EXPECT_EQ(place.scanOverTops(false), 0U);
+    EXPECT_EQ(place.scanOverTops(true) > 4, skims);
   }
 }
 

@@ -101,13 +101,35 @@ TEST(ScanToMapRemoval, LeavesWhatStandsAmongFirmCubes) {
   EXPECT_EQ(with_fence, 0U);
 }
 
+TEST(ScanToMapRemoval, MakesFirmWhatScansOftenSeeSomethingAt) {
+  for (const int filled : {2, 3}) {
+    RemovalConfig config;
+    config.evidence.filled = filled;
+    config.evidence.interval = 1;
+    Look look(config);
+    const OcTreeKey in_wall = at(20.15, 0.15, -0.25), before = at(10.15, 0.15, -0.25);  // one behind what is hit
+    const Octant& octant = occupy(look.map(), in_wall);
+    const Octant& free = occupy(look.map(), before);
+    for (int i = 1; i <= 3; ++i) {
+      look.scan(true);
+      EXPECT_EQ((octant.firm & maskOf(bitOf(in_wall))) != 0, i >= filled) << i;
+    }
+    EXPECT_EQ(free.firm, 0U);
+    Region* region = look.map().regionOf(in_wall);
+    region->remove(look.map().octantOf(in_wall), maskOf(bitOf(in_wall)));
+    occupy(look.map(), in_wall);
+    look.scan(true);
+    EXPECT_EQ(octant.firm & maskOf(bitOf(in_wall)), 0U);  // what comes again is new
+  }
+}
+
 TEST(ScanToMapRemoval, IsSureOfWhatItOftenSeesThroughNearFirmCubes) {
   const auto cubesGone = [](int scans, const RemovalConfig& config, std::uint8_t hits) {
     Look look(config);
     look.ghost(10, 0);
     look.map().forEachColumn([&](Column& column) {
       for (const auto& region : column.regions)
-        for (OctantCounts& counts : region->counts) counts.fill({.hits = hits, .misses = 0});
+        for (OctantPast& past : region->past) past.counts.fill({.hits = hits, .misses = 0});
     });
     for (int i = 0; i < 4; ++i)
       for (int k = 0; k < 12; ++k)
@@ -247,7 +269,7 @@ TEST(ScanToMapRemoval, LeavesWhatHasStoppedToTheBackEndsGuard) {
     look.ghost(10, 0);
     look.map().forEachColumn([](Column& column) {
       for (const auto& region : column.regions)
-        for (OctantCounts& counts : region->counts) counts.fill({.hits = 20, .misses = 0});
+        for (OctantPast& past : region->past) past.counts.fill({.hits = 20, .misses = 0});
     });
     EXPECT_EQ(cubesOf(look.scan()) > 0, revert_hits == 0);
   }

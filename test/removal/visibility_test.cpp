@@ -140,6 +140,23 @@ TEST(Visibility, TakesNoLineThatAllButMeetsTheSensorForAWall) {
   EXPECT_EQ(visibilityOf(cloud, {.clearance = 0}).at(behind), Look::kUnknown);
 }
 
+TEST(Visibility, SkimsWhatIsFarBehindALevelTop) {
+  octomap::Pointcloud cloud = test::wallAndGround(50, 64, 1024);
+  for (octomap::point3d& p : cloud) {  // a row of cars, their tops 0.3 m below the sensor, 7 m away
+    const octomap::point3d front = p * (7 / p.x());
+    if (p.x() > 7 && front.z() < -0.3F) p = front;
+  }
+  const auto at = [&](float x, const VisibilityConfig& config = {}) {  // 0.2 degrees above the tops
+    return visibilityOf(cloud, config).at({x, 0, x * (-0.3F / 7 + 0.0035F)});
+  };
+  EXPECT_EQ(at(20), Look::kSkimmed);
+  EXPECT_EQ(at(12), Look::kSkimmed);
+  EXPECT_EQ(at(10), Look::kUnknown);  // a top may be so long
+  EXPECT_EQ(at(12, {.skim_from = 6}), Look::kUnknown);
+  EXPECT_EQ(at(20, {.skim = 0.02}), Look::kUnknown);
+  EXPECT_EQ(at(20, {.surface = 0.01, .surface_share = 0}), Look::kSeenThrough);
+}
+
 TEST(Visibility, DoesNotSeeThroughAWallAlongTheWay) {
   octomap::Pointcloud cloud = test::wallAndGround(60, 64, 512);
   for (octomap::point3d& p : cloud)
@@ -177,7 +194,7 @@ TEST(Visibility, SeesCubesAsItSeesTheirCentres) {
   }
   std::vector<CubeLooks> looks(places.size());
   visibility.look(view, places, looks);
-  std::size_t filled = 0, through = 0;
+  std::size_t filled = 0, through = 0, skimmed = 0;
   for (std::size_t i = 0; i < places.size(); ++i) {
     CubeLooks expected;
     forEachBit(places[i].cubes, [&](int bit) {
@@ -185,13 +202,16 @@ TEST(Visibility, SeesCubesAsItSeesTheirCentres) {
       const Look look = visibility.at(view(cube[0], cube[1], cube[2]));
       if (look == Look::kFilled) expected.filled |= maskOf(bit);
       if (look == Look::kSeenThrough) expected.seen_through |= maskOf(bit);
+      if (look == Look::kSkimmed) expected.skimmed |= maskOf(bit);
     });
     ASSERT_EQ(looks[i].filled, expected.filled) << i;
     ASSERT_EQ(looks[i].seen_through, expected.seen_through) << i;
-    filled += expected.filled != 0, through += expected.seen_through != 0;
+    ASSERT_EQ(looks[i].skimmed, expected.skimmed) << i;
+    filled += expected.filled != 0, through += expected.seen_through != 0, skimmed += expected.skimmed != 0;
   }
   EXPECT_GT(filled, 30U);
   EXPECT_GT(through, 300U);
+  EXPECT_GT(skimmed, 10U);
 }
 
 TEST(Visibility, HidesNothingThatIsSeenThrough) {
@@ -211,7 +231,8 @@ TEST(Visibility, HidesNothingThatIsSeenThrough) {
       ++hidden;
       for (int k = 0; k < 100; ++k) {
         const auto off = [&] { return half * (2 * unit(random) - 1); };
-        ASSERT_NE(visibility.at({centre[0] + off(), centre[1] + off(), centre[2] + off()}), Look::kSeenThrough);
+        const Look look = visibility.at({centre[0] + off(), centre[1] + off(), centre[2] + off()});
+        ASSERT_TRUE(look != Look::kSeenThrough && look != Look::kSkimmed);
       }
     }
   }

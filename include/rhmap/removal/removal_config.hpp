@@ -54,6 +54,9 @@ struct VisibilityConfig {
   double surface = 0.2;        ///< no cube is seen through that is this near to the line between two pixels' points [m]
   double surface_share = 0.007;  ///< or this near, as a share of the range: pixels are farther apart there
   double clearance = 2;          ///< such a line between columns is a wall's if it passes the sensor this far away [m]
+  double skim = 1;               ///< what is near one within a column that passes the sensor nearer than this [m],
+  double skim_from = 4;          ///< and this far from its nearer end [m], is skimmed: only looking back takes that
+                                 ///< for seen through
   double edge_share = 0.15;      ///< above the first row's beam, behind is what is farther by this share
   double ball = 0.1;             ///< what a scan sees of a cube is the ball around it, up to this radius [m]
   int window = 1;                ///< pixels looked at on each side of the cube's own, more where the cube covers more
@@ -74,7 +77,8 @@ struct EvidenceConfig {
   double sure_share = 0.7;      ///< and a smaller share will do
   double rest_share = 1.0 / 3;  ///< of the octant's cubes that no scan can tell of or that go, so many must go to take
                                 ///< along the others, unless firm ones are around; above 1: none are taken along
-  int firm = 3;                 ///< scans that have hit a cube that speaks for those around it
+  int firm = 3;                 ///< scans that have hit a cube that speaks for those around it,
+  int filled = 3;               ///< or so many looks must have seen something at its place; 1 to 7
 };
 
 /// Void: space that rays have crossed so often and so widely that what is hit in it moves.
@@ -101,6 +105,15 @@ struct LookBackConfig {
   double share = 0.8;   ///< of the cubes around, new and firm ones, so many must be new in this way,
   double least = 0.04;  ///< and so much [m^2]
   int growth = 1;       ///< steps (cells of the void) from what has come to what belongs to it
+};
+
+/// Leftovers: where most of what was there has gone, the few cubes of it go that no scan can tell of.
+struct LeftoverConfig {
+  bool enabled = true;
+  double reach = 0.3;   ///< this far around the octant [m], taken as 1 to 4 cubes,
+  double least = 0.08;  ///< so much must have gone [m^2],
+  double share = 0.6;   ///< and such a share of that and what is there:
+  double others = 0.3;  ///< firm cubes count as 1, others as this
 };
 
 /// The back end: keyframes that look at the map again when the sensor has moved on (Sec. III-D).
@@ -136,6 +149,7 @@ struct RemovalConfig {
   EvidenceConfig evidence;
   VoidConfig free_space;
   LookBackConfig look_back;
+  LeftoverConfig leftovers;
   BackEndConfig back_end;
 };
 

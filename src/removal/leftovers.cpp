@@ -1,0 +1,69 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "leftovers.hpp"
+
+#include <algorithm>
+#include <vector>
+
+#include "evidence.hpp"
+#include "rhmap/core/cell_word.hpp"
+
+namespace rhmap {
+namespace {
+
+/// An octant with cubes that few scans have hit.
+struct LooseOctant {
+  std::uint64_t name;  // the order in which they are judged, whatever the order of those that have changed
+  Region* region;
+  std::size_t octant;
+  std::uint64_t cubes;
+};
+
+/// The octants at and beside some that have such cubes, each once.
+std::vector<LooseOctant> octantsBeside(const RegionMap& map, std::span<const OcTreeKey> octants,
+                                       const LookConfig& look) {
+  std::vector<LooseOctant> found;
+  for (const OcTreeKey& corner : octants) {
+    Region* region = nullptr;
+    std::uint64_t name = ~std::uint64_t{0};  // of the region
+    for (int i = 0; i < 27; ++i) {
+      const auto beside = [&](unsigned axis, int step) { return static_cast<key_type>(corner[axis] + 4 * (step - 1)); };
+      const OcTreeKey at(beside(0, i / 9), beside(1, i / 3 % 3), beside(2, i % 3));
+      if (map.nameOf(at) != name) {
+        name = map.nameOf(at);
+        region = map.find(name);
+      }
+      const std::size_t o = map.octantOf(at);
+      if (region == nullptr || (region->loose_octants >> o & 1) == 0) continue;
+      const Octant& octant = region->octants[o];
+      std::uint64_t cubes = octant.occupied & ~octant.ground & ~octant.firm;
+      if (look.protect && region->scan == look.scan) cubes &= ~octant.hit;
+      if (cubes != 0) found.push_back({cell_word::fromKey(at), region, o, cubes});
+    }
+  }
+  std::sort(found.begin(), found.end(), [](const LooseOctant& a, const LooseOctant& b) { return a.name < b.name; });
+  found.erase(std::unique(found.begin(), found.end(),
+                          [](const LooseOctant& a, const LooseOctant& b) { return a.name == b.name; }),
+              found.end());
+  return found;
+}
+
+}  // namespace
+
+void removeLeftovers(const RegionMap& map, std::span<const OcTreeKey> around, const LeftoverConfig& config,
+                     double resolution, const LookConfig& look, RemovalResult& result) {
+  const int reach = cubesAround(config.reach, resolution);
+  const double least = config.least / (resolution * resolution);
+  std::vector<LooseOctant> octants = octantsBeside(map, around, look);
+  std::erase_if(octants, [&](const LooseOctant& octant) {
+    const Neighbourhood near = lookAround(
+        map, map.cornerOf(*octant.region, octant.octant), reach,
+        [](const Region& region, std::size_t o) { return region.past[o].gone & ~region.octants[o].occupied; });
+    return near.moving < least || near.moving < config.share * (near.moving + near.firm + config.others * near.others);
+  });
+  for (const auto& [name, region, o, cubes] : octants) {  // all were found before any goes
+    region->remove(o, cubes);
+    result.removed.push_back({map.cornerOf(*region, o), cubes, false});
+  }
+}
+
+}  // namespace rhmap

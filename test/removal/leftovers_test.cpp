@@ -1,0 +1,144 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "leftovers.hpp"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <array>
+#include <bit>
+#include <iterator>
+#include <random>
+#include <set>
+#include <tuple>
+#include <vector>
+
+#include "small_world.hpp"
+
+namespace rhmap {
+namespace {
+
+using test::emptyMap;
+using test::isOccupied;
+using test::kCube;
+using test::occupy;
+
+OcTreeKey cornerOf(const OcTreeKey& cube) {
+  return {static_cast<key_type>(cube[0] & ~3), static_cast<key_type>(cube[1] & ~3),
+          static_cast<key_type>(cube[2] & ~3)};
+}
+
+OcTreeKey at(int x, int y, int z) {
+  return {static_cast<key_type>(kTreeMaxVal + x), static_cast<key_type>(kTreeMaxVal + y),
+          static_cast<key_type>(kTreeMaxVal + z)};
+}
+
+void takeOut(RegionMap& map, const OcTreeKey& cube) {
+  occupy(map, cube);
+  map.regionOf(cube)->remove(map.octantOf(cube), maskOf(bitOf(cube)));
+}
+
+/// What is left of an octant of which `gone` cubes have been taken out, with so many firm ones beside it.
+std::size_t leftOf(int gone, int firm = 0, const LeftoverConfig& config = {}) {
+  RegionMap map = emptyMap();
+  const OcTreeKey corner = at(0, 0, 0);
+  for (int bit = 0; bit < 64; ++bit)
+    bit < gone ? takeOut(map, cubeOf(corner, bit)) : void(occupy(map, cubeOf(corner, bit)));
+  for (int i = 0; i < firm; ++i) {
+    const OcTreeKey cube = at(4, i % 4, i / 4);
+    occupy(map, cube).firm |= maskOf(bitOf(cube));
+  }
+  RemovalResult result;
+  removeLeftovers(map, std::array{corner}, config, kCube, {.scan = 1}, result);
+  const Octant& octant = map.regionOf(corner)->octants[map.octantOf(corner)];
+  return static_cast<std::size_t>(std::popcount(octant.occupied));
+}
+
+TEST(Leftovers, GoIfMostOfWhatWasThereHasGone) {
+  EXPECT_EQ(leftOf(20), 0U);  // 20 of 20 + 0.3 * 44 = 33.2, which is more than 0.6
+  EXPECT_EQ(leftOf(19), 45U);
+  EXPECT_EQ(leftOf(32, 11), 0U);  // 32 of 32 + 0.3 * 32 + 11 = 52.6
+  EXPECT_EQ(leftOf(32, 12), 32U);
+  EXPECT_EQ(leftOf(32, 12, {.share = 0.59}), 0U);
+  EXPECT_EQ(leftOf(60, 0, {.least = 0.6}), 0U);
+  EXPECT_EQ(leftOf(59, 0, {.least = 0.6}), 5U);
+}
+
+TEST(Leftovers, AreNotOfTheGroundNorFirmNorHitByThisScan) {
+  RegionMap map = emptyMap();
+  const OcTreeKey corner = at(0, 0, 0);
+  for (int bit = 8; bit < 64; ++bit) takeOut(map, cubeOf(corner, bit));
+  for (int bit = 0; bit < 4; ++bit) occupy(map, cubeOf(corner, bit));
+  Region* region = map.regionOf(corner);
+  Octant& octant = region->octants[map.octantOf(corner)];
+  octant.ground = 1, octant.firm = 2, octant.hit = 4;
+  region->scan = 7;
+  RemovalResult result;
+  removeLeftovers(map, std::array{corner}, {}, kCube, {.scan = 7}, result);
+  EXPECT_EQ(octant.occupied, 7U);
+  ASSERT_EQ(result.removed.size(), 1U);
+  EXPECT_EQ(result.removed[0].corner, corner);
+  EXPECT_EQ(result.removed[0].cubes, 8U);
+  EXPECT_FALSE(result.removed[0].seen_through);
+  removeLeftovers(map, std::array{corner}, {}, kCube, {.scan = 7, .protect = false}, result);
+  EXPECT_EQ(octant.occupied, 3U);
+}
+
+TEST(Leftovers, AreWhatAPlainCountFinds) {
+  for (const int size : {4, 8, 16}) {
+    RegionMap map = emptyMap(size);
+    std::mt19937 random(static_cast<unsigned>(size));
+    test::RandomCubes somewhere(11, 14);
+    std::set<OcTreeKey, decltype([](const OcTreeKey& a, const OcTreeKey& b) {
+               return std::tie(a[0], a[1], a[2]) < std::tie(b[0], b[1], b[2]);
+             })>
+        known;
+    std::vector<OcTreeKey> gone, firm, others, changed;
+    for (int i = 0; i < 6000; ++i) {
+      const OcTreeKey cube = somewhere();
+      if (!known.insert(cube).second) continue;
+      // Where x is larger, more has gone.
+      const bool goes = static_cast<int>(random() % 28) < cube[0] - kTreeMaxVal + 20;
+      if (goes) {
+        takeOut(map, cube);
+        gone.push_back(cube);
+        if (random() % 40 == 0) changed.push_back(cornerOf(cube));
+      } else if (random() % 6 == 0) {
+        occupy(map, cube).firm |= maskOf(bitOf(cube));
+        firm.push_back(cube);
+      } else {
+        occupy(map, cube);
+        others.push_back(cube);
+      }
+    }
+    const auto within = [](const OcTreeKey& cube, const OcTreeKey& corner, int reach) {
+      for (unsigned axis = 0; axis < 3; ++axis)
+        if (cube[axis] + reach < corner[axis] || cube[axis] > corner[axis] + 3 + reach) return false;
+      return true;
+    };
+    const auto goes = [&](const OcTreeKey& cube) {
+      const OcTreeKey corner = cornerOf(cube);
+      const auto near = [&](const OcTreeKey& other) { return within(other, corner, 3); };
+      const auto moved = static_cast<double>(std::count_if(gone.begin(), gone.end(), near));
+      const auto stand = static_cast<double>(std::count_if(firm.begin(), firm.end(), near));
+      const auto more = static_cast<double>(std::count_if(others.begin(), others.end(), near));
+      const bool is_beside =
+          std::any_of(changed.begin(), changed.end(), [&](const OcTreeKey& at) { return within(corner, at, 4); });
+      return is_beside && moved >= 8 && moved >= 0.6 * (moved + stand + 0.3 * more);
+    };
+    std::vector<OcTreeKey> expected;
+    std::copy_if(others.begin(), others.end(), std::back_inserter(expected), goes);
+    RemovalResult result;
+    removeLeftovers(map, changed, {}, kCube, {.scan = 1}, result);
+    EXPECT_GT(expected.size(), 100U);
+    EXPECT_GT(others.size(), expected.size() + 100);
+    for (const OcTreeKey& cube : others)
+      ASSERT_EQ(isOccupied(map, cube), std::find(expected.begin(), expected.end(), cube) == expected.end());
+    for (const OcTreeKey& cube : firm) ASSERT_TRUE(isOccupied(map, cube));
+    std::size_t removed = 0;
+    for (const RemovedCubesOf& of : result.removed) removed += static_cast<std::size_t>(std::popcount(of.cubes));
+    EXPECT_EQ(removed, expected.size());
+  }
+}
+
+}  // namespace
+}  // namespace rhmap
