@@ -47,6 +47,14 @@ std::vector<LooseOctant> octantsBeside(const RegionMap& map, std::span<const OcT
   return found;
 }
 
+/// Of some cubes, those that scans are known to have hit, and not just read from the tree.
+std::uint64_t knownHits(const OctantPast& past, std::uint64_t cubes) {
+  std::uint64_t known = 0;
+  forEachBit(cubes,
+             [&](int bit) { known |= std::uint64_t{past.counts[static_cast<std::size_t>(bit)].hits > 0} << bit; });
+  return known;
+}
+
 }  // namespace
 
 void removeLeftovers(const RegionMap& map, std::span<const OcTreeKey> around, const LeftoverConfig& config,
@@ -60,9 +68,11 @@ void removeLeftovers(const RegionMap& map, std::span<const OcTreeKey> around, co
         [](const Region& region, std::size_t o) { return region.past[o].gone & ~region.octants[o].occupied; });
     return near.moving < least || near.moving < config.share * (near.moving + near.firm + config.others * near.others);
   });
-  for (const auto& [name, region, o, cubes] : octants) {  // all were found before any goes
-    region->remove(o, cubes);
-    result.removed.push_back({map.cornerOf(*region, o), cubes, false});
+  for (const LooseOctant& octant : octants) {  // all were found before any goes
+    const std::uint64_t cubes = knownHits(octant.region->past[octant.octant], octant.cubes);
+    if (cubes == 0) continue;
+    octant.region->remove(octant.octant, cubes);
+    result.removed.push_back({map.cornerOf(*octant.region, octant.octant), cubes, false});
   }
 }
 

@@ -119,7 +119,6 @@ void validate(const RemovalConfig& c) {
   atLeast0("evidence.sure_ratio", c.evidence.sure_ratio);
   length("evidence.sure_reach", c.evidence.sure_reach);
   share("evidence.sure_share", c.evidence.sure_share);
-  atLeast0("evidence.rest_share", c.evidence.rest_share);
   length("free_space.cell", c.free_space.cell);
   between(1e-6, 200, "free_space.max_range", c.free_space.max_range, "above 0 and up to 200 m");
   atLeast0("free_space.surface", c.free_space.surface);

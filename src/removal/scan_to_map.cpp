@@ -14,7 +14,6 @@ struct Doubt {
   Region* region;
   std::size_t octant;
   std::uint64_t cubes;
-  std::uint64_t rest;  // cubes of which the scan cannot tell
   int misses;          // that are needed
 };
 
@@ -128,7 +127,7 @@ class ScanToMapRemoval {
       if (look_.protect && region.scan == look_.scan) cubes &= ~octant.hit;
       const OcTreeKey corner = map_.cornerOf(region, o);
       if (cubes == 0 || (octant.doubted == 0 && isHidden(corner, 4))) return;
-      doubts_.push_back({&region, o, cubes, 0, misses});
+      doubts_.push_back({&region, o, cubes, misses});
       places_.push_back({corner, cubes});
     });
   }
@@ -171,7 +170,6 @@ class ScanToMapRemoval {
       region.noteDoubts(doubt.octant);
       if (through == 0) continue;
       if (doubt.misses == 1) result_.is_protected -= static_cast<std::size_t>(std::popcount(through));
-      doubt.rest = doubt.cubes & ~through & ~filled;
       doubt.cubes = through;
       doubts_[kept++] = doubt;
     }
@@ -196,7 +194,6 @@ class ScanToMapRemoval {
       if (around.firm == 0 && around.moving >= enough_) gone[d] |= seen;
       if (around.isMoving(evidence.share)) gone[d] |= due;
       if ((sure & ~gone[d]) != 0 && doubtedAround(doubt, sure_reach_).isMoving(evidence.sure_share)) gone[d] |= sure;
-      if (around.firm == 0) gone[d] |= restOf(doubt, gone[d]);
     }
     for (std::size_t d = 0; d < doubts_.size(); ++d) {
       const Doubt& doubt = doubts_[d];
@@ -210,15 +207,6 @@ class ScanToMapRemoval {
   Neighbourhood doubtedAround(const Doubt& doubt, int reach) const {
     return lookAround(map_, map_.cornerOf(*doubt.region, doubt.octant), reach,
                       [](const Region& region, std::size_t o) { return region.octants[o].doubted; });
-  }
-
-  /// What goes with the cubes of its octant that go: the scan may never tell of it, where there is nothing behind or
-  /// something before it.
-  std::uint64_t restOf(const Doubt& doubt, std::uint64_t gone) const {
-    if (scan_.visibility == nullptr) return 0;
-    const std::uint64_t rest = doubt.rest & ~doubt.region->octants[doubt.octant].firm;
-    const int n = std::popcount(gone);
-    return n > 0 && n >= config_.evidence.rest_share * (n + std::popcount(rest)) ? rest : 0;
   }
 
   const RegionMap& map_;

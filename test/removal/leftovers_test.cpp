@@ -32,6 +32,13 @@ OcTreeKey at(int x, int y, int z) {
           static_cast<key_type>(kTreeMaxVal + z)};
 }
 
+/// A cube that one scan has hit.
+Octant& hit(RegionMap& map, const OcTreeKey& cube) {
+  Octant& octant = occupy(map, cube);
+  map.regionOf(cube)->past[map.octantOf(cube)].counts[static_cast<std::size_t>(bitOf(cube))].hits = 1;
+  return octant;
+}
+
 void takeOut(RegionMap& map, const OcTreeKey& cube) {
   occupy(map, cube);
   map.regionOf(cube)->remove(map.octantOf(cube), maskOf(bitOf(cube)));
@@ -42,7 +49,7 @@ std::size_t leftOf(int gone, int firm = 0, const LeftoverConfig& config = {}) {
   RegionMap map = emptyMap();
   const OcTreeKey corner = at(0, 0, 0);
   for (int bit = 0; bit < 64; ++bit)
-    bit < gone ? takeOut(map, cubeOf(corner, bit)) : void(occupy(map, cubeOf(corner, bit)));
+    bit < gone ? takeOut(map, cubeOf(corner, bit)) : void(hit(map, cubeOf(corner, bit)));
   for (int i = 0; i < firm; ++i) {
     const OcTreeKey cube = at(4, i % 4, i / 4);
     occupy(map, cube).firm |= maskOf(bitOf(cube));
@@ -54,11 +61,13 @@ std::size_t leftOf(int gone, int firm = 0, const LeftoverConfig& config = {}) {
 }
 
 TEST(Leftovers, GoIfMostOfWhatWasThereHasGone) {
-  EXPECT_EQ(leftOf(20), 0U);  // 20 of 20 + 0.3 * 44 = 33.2, which is more than 0.6
-  EXPECT_EQ(leftOf(19), 45U);
-  EXPECT_EQ(leftOf(32, 11), 0U);  // 32 of 32 + 0.3 * 32 + 11 = 52.6
-  EXPECT_EQ(leftOf(32, 12), 32U);
-  EXPECT_EQ(leftOf(32, 12, {.share = 0.59}), 0U);
+  LeftoverConfig config{.reach = 0.3, .least = 0.1, .share = 0.6, .others = 0.3};
+  EXPECT_EQ(leftOf(20, 0, config), 0U);  // 20 of 20 + 0.3 * 44 = 33.2, which is more than 0.6
+  EXPECT_EQ(leftOf(19, 0, config), 45U);
+  EXPECT_EQ(leftOf(32, 11, config), 0U);  // 32 of 32 + 0.3 * 32 + 11 = 52.6
+  EXPECT_EQ(leftOf(32, 12, config), 32U);
+  config.share = 0.59;
+  EXPECT_EQ(leftOf(32, 12, config), 0U);
   EXPECT_EQ(leftOf(60, 0, {.least = 0.6}), 0U);
   EXPECT_EQ(leftOf(59, 0, {.least = 0.6}), 5U);
 }
@@ -67,7 +76,7 @@ TEST(Leftovers, AreNotOfTheGroundNorFirmNorHitByThisScan) {
   RegionMap map = emptyMap();
   const OcTreeKey corner = at(0, 0, 0);
   for (int bit = 8; bit < 64; ++bit) takeOut(map, cubeOf(corner, bit));
-  for (int bit = 0; bit < 4; ++bit) occupy(map, cubeOf(corner, bit));
+  for (int bit = 0; bit < 4; ++bit) hit(map, cubeOf(corner, bit));
   Region* region = map.regionOf(corner);
   Octant& octant = region->octants[map.octantOf(corner)];
   octant.ground = 1, octant.firm = 2, octant.hit = 4;
@@ -81,6 +90,18 @@ TEST(Leftovers, AreNotOfTheGroundNorFirmNorHitByThisScan) {
   EXPECT_FALSE(result.removed[0].seen_through);
   removeLeftovers(map, std::array{corner}, {}, kCube, {.scan = 7, .protect = false}, result);
   EXPECT_EQ(octant.occupied, 3U);
+}
+
+TEST(Leftovers, AreNothingThatWasReadFromTheTree) {
+  for (const bool was_hit : {true, false}) {
+    RegionMap map = emptyMap();
+    const OcTreeKey corner = at(0, 0, 0);
+    for (int bit = 1; bit < 64; ++bit) takeOut(map, cubeOf(corner, bit));
+    was_hit ? hit(map, corner) : occupy(map, corner);
+    RemovalResult result;
+    removeLeftovers(map, std::array{corner}, {}, kCube, {.scan = 1}, result);
+    EXPECT_EQ(isOccupied(map, corner), !was_hit);
+  }
 }
 
 TEST(Leftovers, AreWhatAPlainCountFinds) {
@@ -106,10 +127,11 @@ TEST(Leftovers, AreWhatAPlainCountFinds) {
         occupy(map, cube).firm |= maskOf(bitOf(cube));
         firm.push_back(cube);
       } else {
-        occupy(map, cube);
+        hit(map, cube);
         others.push_back(cube);
       }
     }
+    const LeftoverConfig config;
     const auto within = [](const OcTreeKey& cube, const OcTreeKey& corner, int reach) {
       for (unsigned axis = 0; axis < 3; ++axis)
         if (cube[axis] + reach < corner[axis] || cube[axis] > corner[axis] + 3 + reach) return false;
@@ -123,12 +145,13 @@ TEST(Leftovers, AreWhatAPlainCountFinds) {
       const auto more = static_cast<double>(std::count_if(others.begin(), others.end(), near));
       const bool is_beside =
           std::any_of(changed.begin(), changed.end(), [&](const OcTreeKey& at) { return within(corner, at, 4); });
-      return is_beside && moved >= 8 && moved >= 0.6 * (moved + stand + 0.3 * more);
+      return is_beside && moved >= config.least / (kCube * kCube) &&
+             moved >= config.share * (moved + stand + config.others * more);
     };
     std::vector<OcTreeKey> expected;
     std::copy_if(others.begin(), others.end(), std::back_inserter(expected), goes);
     RemovalResult result;
-    removeLeftovers(map, changed, {}, kCube, {.scan = 1}, result);
+    removeLeftovers(map, changed, config, kCube, {.scan = 1}, result);
     EXPECT_GT(expected.size(), 100U);
     EXPECT_GT(others.size(), expected.size() + 100);
     for (const OcTreeKey& cube : others)

@@ -57,7 +57,6 @@ TEST(RemovalConfig, AWrongValueIsNamed) {
       {[](RemovalConfig& c) { c.visibility.ball = 0; }, "visibility.ball", "0"},
       {[](RemovalConfig& c) { c.evidence.sure_ratio = -2; }, "evidence.sure_ratio", "-2"},
       {[](RemovalConfig& c) { c.evidence.sure_reach = 0; }, "evidence.sure_reach", "0"},
-      {[](RemovalConfig& c) { c.evidence.rest_share = -1; }, "evidence.rest_share", "-1"},
       {[](RemovalConfig& c) { c.free_space.least_new = NAN; }, "free_space.least_new", "nan"},
       {[](RemovalConfig& c) { c.evidence.doubtful_interval = 0; }, "evidence.doubtful_interval", "0"},
       {[](RemovalConfig& c) { c.evidence.ground_interval = 0; }, "evidence.ground_interval", "0"},

@@ -151,40 +151,6 @@ TEST(ScanToMapRemoval, IsSureOfWhatItOftenSeesThroughNearFirmCubes) {
   EXPECT_EQ(cubesGone(config.evidence.sure_misses, config, 1), 0U);
 }
 
-TEST(ScanToMapRemoval, TakesAlongWhatTheScanCannotTell) {
-  RemovalConfig config;
-  for (const double share : {config.evidence.rest_share, 2.0}) {
-    config.evidence.rest_share = share;
-    for (const bool with_firm : {false, true}) {
-      Look look(config);
-      look.ghost(10, 0);
-      std::vector<OcTreeKey> unseen;  // an octant that reaches above the image
-      const OcTreeKey top = at(10.05, 0.05, 1.75);
-      for (int bit = 0; bit < 64; ++bit) {
-        const OcTreeKey cube = cubeOf(OcTreeKey(static_cast<key_type>(top[0] & ~3), static_cast<key_type>(top[1] & ~3),
-                                                static_cast<key_type>(top[2] & ~3)),
-                                      bit);
-        occupy(look.map(), cube);
-        unseen.push_back(cube);
-      }
-      if (with_firm) {
-        const OcTreeKey beside = at(10.05, 0.45, 1.75);
-        Octant& octant = occupy(look.map(), beside);
-        octant.firm = octant.safe = maskOf(bitOf(beside));
-      }
-      look.scan();
-      std::size_t left = 0;
-      for (const OcTreeKey& cube : unseen) left += test::isOccupied(look.map(), cube);
-      if (share > 1 || with_firm) {
-        EXPECT_GT(left, 0U);
-        EXPECT_LT(left, unseen.size());
-      } else {
-        EXPECT_EQ(left, 0U);
-      }
-    }
-  }
-}
-
 RemovalConfig withoutCandidates() {
   RemovalConfig config;
   config.context.delta_1 = 0;

@@ -64,21 +64,19 @@ struct VisibilityConfig {
 
 /// When a cube goes that scans have seen through.
 struct EvidenceConfig {
-  bool everywhere = true;       ///< all cubes in sight are looked at, not only those of candidates by ratio
-  int interval = 4;             ///< each of these in one of so many scans,
-  int doubtful_interval = 2;    ///< or so many, if scans have seen through cubes beside it;
-  int ground_interval = 8;      ///< of the ground, only what is doubted and, in one of so many scans, the rest
-  int misses = 2;               ///< looks in a row that must have seen through a cube; a candidate's goes at the first
-  double share = 0.85;          ///< of the cubes around, doubted and firm ones, so many must be doubted
-  double enough = 0.16;         ///< a single look will do if so much around is doubted and nothing is firm [m^2]
-  int sure_misses = 6;          ///< after so many looks in a row,
-  double sure_ratio = 3;        ///< and so many for each scan that has hit the cube,
-  double sure_reach = 0.2;      ///< only what is so near to its octant is around it [m], taken as 1 to 4 cubes,
-  double sure_share = 0.7;      ///< and a smaller share will do
-  double rest_share = 1.0 / 3;  ///< of the octant's cubes that no scan can tell of or that go, so many must go to take
-                                ///< along the others, unless firm ones are around; above 1: none are taken along
-  int firm = 3;                 ///< scans that have hit a cube that speaks for those around it,
-  int filled = 3;               ///< or so many looks must have seen something at its place; 1 to 7
+  bool everywhere = true;     ///< all cubes in sight are looked at, not only those of candidates by ratio
+  int interval = 4;           ///< each of these in one of so many scans,
+  int doubtful_interval = 2;  ///< or so many, if scans have seen through cubes beside it;
+  int ground_interval = 8;    ///< of the ground, only what is doubted and, in one of so many scans, the rest
+  int misses = 2;             ///< looks in a row that must have seen through a cube; a candidate's goes at the first
+  double share = 0.9;         ///< of the cubes around, doubted and firm ones, so many must be doubted
+  double enough = 0.24;       ///< a single look will do if so much around is doubted and nothing is firm [m^2]
+  int sure_misses = 12;       ///< after so many looks in a row,
+  double sure_ratio = 3;      ///< and so many for each scan that has hit the cube,
+  double sure_reach = 0.2;    ///< only what is so near to its octant is around it [m], taken as 1 to 4 cubes,
+  double sure_share = 0.7;    ///< and a smaller share will do
+  int firm = 3;               ///< scans that have hit a cube that speaks for those around it,
+  int filled = 3;             ///< or so many looks must have seen something at its place; 1 to 7
 };
 
 /// Void: space that rays have crossed so often and so widely that what is hit in it moves.
@@ -102,7 +100,7 @@ struct LookBackConfig {
   int stride = 12;      ///< scans from one of these to the next
   int seen = 1;         ///< at least so many must have seen through the cube
   int contrary = 1;     ///< and at most so many have seen something at its place
-  double share = 0.8;   ///< of the cubes around, new and firm ones, so many must be new in this way,
+  double share = 0.85;  ///< of the cubes around, new and firm ones, so many must be new in this way,
   double least = 0.04;  ///< and so much [m^2]
   int growth = 1;       ///< steps (cells of the void) from what has come to what belongs to it
 };
@@ -110,10 +108,10 @@ struct LookBackConfig {
 /// Leftovers: where most of what was there has gone, the few cubes of it go that no scan can tell of.
 struct LeftoverConfig {
   bool enabled = true;
-  double reach = 0.3;   ///< this far around the octant [m], taken as 1 to 4 cubes,
-  double least = 0.08;  ///< so much must have gone [m^2],
-  double share = 0.6;   ///< and such a share of that and what is there:
-  double others = 0.3;  ///< firm cubes count as 1, others as this
+  double reach = 0.3;    ///< this far around the octant [m], taken as 1 to 4 cubes,
+  double least = 0.1;    ///< so much must have gone [m^2],
+  double share = 0.6;    ///< and such a share of that and what is there:
+  double others = 0.15;  ///< firm cubes count as 1, others as this
 };
 
 /// The back end: keyframes that look at the map again when the sensor has moved on (Sec. III-D).
