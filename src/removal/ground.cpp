@@ -43,6 +43,9 @@ std::optional<Plane> principalPlane(std::span<const LocalCube> cubes, const Grou
                .d = static_cast<float>(normal.dot(mean))};
 }
 
+/// In cubes, of a plane in its region: in the middle, from the region's lowest cube.
+float heightOf(const Plane& plane, float size) { return (plane.d - (plane.n[0] + plane.n[1]) * size / 2) / plane.n[2]; }
+
 }  // namespace
 
 std::optional<Plane> fitGround(std::span<const LocalCube> cubes, const GroundConfig& config, double resolution) {
@@ -121,7 +124,7 @@ bool GroundEstimation::isCandidate(const RegionMap& map, const Region& region) c
 bool GroundEstimation::standsOut(const RegionMap& map, const Region& region, const Plane& plane) const {
   if (config_.max_step <= 0) return false;
   const auto size = static_cast<float>(map.size()), half = size / 2;
-  const float z = (plane.d - (plane.n[0] + plane.n[1]) * half) / plane.n[2];
+  const float z = heightOf(plane, size);
   for (int dx = -1; dx <= 1; ++dx) {
     for (int dy = -1; dy <= 1; ++dy) {
       const Column* beside = dx == 0 && dy == 0 ? nullptr : map.find(region.x + dx, region.y + dy);
@@ -135,6 +138,31 @@ bool GroundEstimation::standsOut(const RegionMap& map, const Region& region, con
   return false;
 }
 
+/// Nor is it far above a third of what is ground around: what is seen over a row of cars is roofs and heads, in many
+/// columns beside each other.
+bool GroundEstimation::isRaised(const RegionMap& map, const Region& region, const Plane& plane) const {
+  if (config_.around <= 0) return false;
+  constexpr int kEach = 3;    // places to all sides
+  constexpr int kEnough = 3;  // planes below
+  const auto size = static_cast<float>(map.size());
+  const double width = map.size() * resolution_, apart = config_.around / kEach / width;  // [m], columns
+  const float z = heightOf(plane, size) + static_cast<float>(region.z) * size;
+  int below = 0, level = 0;
+  for (int i = -kEach; i <= kEach; ++i) {
+    for (int j = -kEach; j <= kEach; ++j) {
+      const auto dx = static_cast<int>(std::lround(i * apart)), dy = static_cast<int>(std::lround(j * apart));
+      const Column* there = dx == 0 && dy == 0 ? nullptr : map.find(region.x + dx, region.y + dy);
+      const Region* base = there == nullptr ? nullptr : there->base;
+      if (base == nullptr || !base->fitted) continue;
+      const float above = z - heightOf(base->plane, size) - static_cast<float>(base->z) * size;
+      const bool is_below =
+          static_cast<double>(above) * resolution_ > config_.raised + config_.rise * width * std::hypot(dx, dy);
+      ++(is_below ? below : level);
+    }
+  }
+  return below >= kEnough && 3 * below >= below + level;
+}
+
 void GroundEstimation::fit(const RegionMap& map, Region& region) const {
   std::array<LocalCube, 16 * 16 * 16> cubes;  // of the largest region
   std::size_t n = 0;
@@ -142,7 +170,7 @@ void GroundEstimation::fit(const RegionMap& map, Region& region) const {
     forEachBit(region.octants[o].occupied, [&](int bit) { cubes[n++] = localCube(o, bit); });
   region.at_fit = static_cast<std::uint16_t>(n);
   const std::optional<Plane> plane = fitGround({cubes.data(), n}, config_, resolution_);
-  region.fitted = plane && !standsOut(map, region, *plane);
+  region.fitted = plane && !standsOut(map, region, *plane) && !isRaised(map, region, *plane);
   if (plane) region.plane = *plane;
 }
 

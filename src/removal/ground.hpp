@@ -32,6 +32,7 @@ class GroundEstimation {
   void setBase(Column& column, Region* lowest) const;
   bool isCandidate(const RegionMap& map, const Region& region) const;
   bool standsOut(const RegionMap& map, const Region& region, const Plane& plane) const;
+  bool isRaised(const RegionMap& map, const Region& region, const Plane& plane) const;
   void fit(const RegionMap& map, Region& region) const;
   void mark(const RegionMap& map, const Column& column, Region& region, bool only_fresh) const;
 

@@ -37,6 +37,7 @@ RemovalConfig paperProfile() {
   config.ground.across_regions = false;
   config.ground.depth = 0;
   config.ground.max_step = 0;
+  config.ground.around = 0;
   config.ground.thin = -1;
   config.context.max_range = 50;
   config.context.three_d = true;
@@ -83,6 +84,9 @@ void validate(const RemovalConfig& c) {
   atLeast0("ground.min_growth", c.ground.min_growth);
   atLeast0("ground.depth", c.ground.depth);
   atLeast0("ground.max_step", c.ground.max_step);
+  atLeast0("ground.around", c.ground.around);
+  atLeast0("ground.raised", c.ground.raised);
+  atLeast0("ground.rise", c.ground.rise);
   require(!std::isnan(c.ground.thin), "ground.thin", c.ground.thin, "a number");
   between(0, 512, "image.rows", c.image.rows, "between 0 and 512");
   between(16, 8192, "image.columns", c.image.columns, "between 16 and 8192");

@@ -139,6 +139,23 @@ TEST(GroundEstimation, DoesNotClimbSteps) {
   EXPECT_FALSE(ground.is(Ground::at(12, 12, 7)));
 }
 
+TEST(GroundEstimation, IsNotFarAboveAThirdOfTheGroundAround) {
+  // Roads begin 2.4 m from a top on both sides of it.
+  const auto topIsGround = [](const GroundConfig& config, int height, bool roads) {
+    Ground ground(config);
+    if (roads) ground.insert(Ground::plate(-100, -8, 2));
+    if (roads) ground.insert(Ground::plate(48, 140, 2));
+    ground.insert(Ground::plate(16, 24, 2 + height));
+    return ground.is(Ground::at(20, 12, 2 + height));
+  };
+  EXPECT_FALSE(topIsGround({}, 13, true));
+  EXPECT_TRUE(topIsGround({}, 8, true));
+  EXPECT_TRUE(topIsGround({.raised = 1.5}, 13, true));
+  EXPECT_TRUE(topIsGround({.rise = 0.5}, 13, true));
+  EXPECT_TRUE(topIsGround({.around = 0}, 13, true));
+  EXPECT_TRUE(topIsGround({}, 13, false));
+}
+
 TEST(GroundEstimation, GoesOnAcrossTheBordersOfRegions) {
   for (const bool across : {true, false}) {
     GroundConfig config;

@@ -19,6 +19,9 @@ struct GroundConfig {
                                ///< what moves [m]; below 0: none
   double depth = 0.2;          ///< what is farther below a plane is not its ground [m]; 0: everything below is
   double max_step = 0.4;       ///< a plane this far above that of a neighbour is no ground [m]; 0: any step is
+  double around = 10;          ///< nor is one that, among the planes this far around [m] (0: none are looked at), is
+  double raised = 0.8;         ///< above a third, by more than this [m]
+  double rise = 0.05;          ///< and this share of the distance
 };
 
 /// The scan as a range image I of m x n pixels.
