@@ -142,22 +142,21 @@ bool GroundEstimation::standsOut(const RegionMap& map, const Region& region, con
 /// columns beside each other.
 bool GroundEstimation::isRaised(const RegionMap& map, const Region& region, const Plane& plane) const {
   if (config_.around <= 0) return false;
-  constexpr int kEach = 3;    // places to all sides
-  constexpr int kEnough = 3;  // planes below
+  constexpr int kEach = 2, kPlaces = (2 * kEach + 1) * (2 * kEach + 1) - 1;  // to all sides
+  constexpr int kEnough = 2;                                                 // planes below
   const auto size = static_cast<float>(map.size());
-  const double width = map.size() * resolution_, apart = config_.around / kEach / width;  // [m], columns
+  const double width = map.size() * resolution_;                                                   // [m]
+  const auto apart = static_cast<int>(std::max(1L, std::lround(config_.around / kEach / width)));  // columns
   const float z = heightOf(plane, size) + static_cast<float>(region.z) * size;
   int below = 0, level = 0;
   for (int i = -kEach; i <= kEach; ++i) {
     for (int j = -kEach; j <= kEach; ++j) {
-      const auto dx = static_cast<int>(std::lround(i * apart)), dy = static_cast<int>(std::lround(j * apart));
-      const Column* there = dx == 0 && dy == 0 ? nullptr : map.find(region.x + dx, region.y + dy);
+      const Column* there = i == 0 && j == 0 ? nullptr : map.find(region.x + i * apart, region.y + j * apart);
       const Region* base = there == nullptr ? nullptr : there->base;
       if (base == nullptr || !base->fitted) continue;
-      const float above = z - heightOf(base->plane, size) - static_cast<float>(base->z) * size;
-      const bool is_below =
-          static_cast<double>(above) * resolution_ > config_.raised + config_.rise * width * std::hypot(dx, dy);
-      ++(is_below ? below : level);
+      const double above = double{z - heightOf(base->plane, size) - static_cast<float>(base->z) * size} * resolution_;
+      ++(above > config_.raised + config_.rise * width * apart * std::hypot(i, j) ? below : level);
+      if (3 * level > 2 * kPlaces) return false;  // most often so
     }
   }
   return below >= kEnough && 3 * below >= below + level;

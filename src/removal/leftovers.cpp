@@ -48,10 +48,9 @@ std::vector<LooseOctant> octantsBeside(const RegionMap& map, std::span<const OcT
 }
 
 /// Of some cubes, those that scans are known to have hit, and not just read from the tree.
-std::uint64_t knownHits(const OctantPast& past, std::uint64_t cubes) {
+std::uint64_t knownHits(const OctantCounts& counts, std::uint64_t cubes) {
   std::uint64_t known = 0;
-  forEachBit(cubes,
-             [&](int bit) { known |= std::uint64_t{past.counts[static_cast<std::size_t>(bit)].hits > 0} << bit; });
+  forEachBit(cubes, [&](int bit) { known |= std::uint64_t{counts[static_cast<std::size_t>(bit)].hits > 0} << bit; });
   return known;
 }
 
@@ -69,7 +68,7 @@ void removeLeftovers(const RegionMap& map, std::span<const OcTreeKey> around, co
     return near.moving < least || near.moving < config.share * (near.moving + near.firm + config.others * near.others);
   });
   for (const LooseOctant& octant : octants) {  // all were found before any goes
-    const std::uint64_t cubes = knownHits(octant.region->past[octant.octant], octant.cubes);
+    const std::uint64_t cubes = knownHits(octant.region->counts[octant.octant], octant.cubes);
     if (cubes == 0) continue;
     octant.region->remove(octant.octant, cubes);
     result.removed.push_back({map.cornerOf(*octant.region, octant.octant), cubes, false});

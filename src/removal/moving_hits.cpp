@@ -61,7 +61,7 @@ std::size_t MovingHits::reject(const RegionMap& map, const ScanTrace& trace, con
                 });
     if (out == 0) return;
     forEachBit(out, [&](int bit) {
-      if (region.past[o].counts[static_cast<std::size_t>(bit)].hits > config_.free_space.known) out &= ~maskOf(bit);
+      if (region.counts[o][static_cast<std::size_t>(bit)].hits > config_.free_space.known) out &= ~maskOf(bit);
     });
     if (out == 0) return;
     rejected += static_cast<std::size_t>(std::popcount(out));

@@ -29,24 +29,26 @@ void Region::remove(std::size_t octant, std::uint64_t old_cubes) {
   OctantPast& of = past[octant];
   of.gone |= old_cubes;
   of.filled.reset(old_cubes);
-  forEachBit(old_cubes, [&](int bit) { of.counts[static_cast<std::size_t>(bit)] = {}; });
+  forEachBit(old_cubes, [&](int bit) { counts[octant][static_cast<std::size_t>(bit)] = {}; });
 }
 
 RegionMap::RegionMap(int size, Reader read)
     : bits_(std::countr_zero(static_cast<unsigned>(size))),
       read_(std::move(read)),
-      pool_(kRegionBytes + octants() * (sizeof(Octant) + sizeof(OctantPast))) {}
+      pool_(kRegionBytes + octants() * (sizeof(Octant) + sizeof(OctantCounts) + sizeof(OctantPast))) {}
 
 RegionMap::~RegionMap() {
   for (Column* column : in_order_) delete column;
 }
 
-/// One piece of memory: the region, its octants, their past.
+/// One piece of memory: the region, its octants, their counts, their past.
 Region* RegionMap::makeRegion(Column& column, key_type z) {
   auto* memory = static_cast<std::byte*>(pool_.allocate());
   auto* first_octant = reinterpret_cast<Octant*>(memory + kRegionBytes);
   std::uninitialized_value_construct_n(first_octant, octants());
-  auto* first_past = reinterpret_cast<OctantPast*>(first_octant + octants());
+  auto* first_counts = reinterpret_cast<OctantCounts*>(first_octant + octants());
+  std::uninitialized_value_construct_n(first_counts, octants());
+  auto* first_past = reinterpret_cast<OctantPast*>(first_counts + octants());
   std::uninitialized_value_construct_n(first_past, octants());
   return new (memory) Region{.x = column.x,
                              .y = column.y,
@@ -54,6 +56,7 @@ Region* RegionMap::makeRegion(Column& column, key_type z) {
                              .plane = {},
                              .column = &column,
                              .octants = {first_octant, octants()},
+                             .counts = {first_counts, octants()},
                              .past = {first_past, octants()}};
 }
 

@@ -41,15 +41,16 @@ struct CubesAt {
   std::uint64_t cubes;
 };
 
-/// What is counted of a cube, up to 255.
+/// What is counted of a cube, up to 255. Apart from the masks, which are read far more often.
 struct CubeCounts {
   std::uint8_t hits = 0;    ///< scans that have hit it
   std::uint8_t misses = 0;  ///< scans that have seen through it since its last hit
 };
-/// What is remembered of an octant's cubes. Apart from the masks, which are read far more often.
+using OctantCounts = std::array<CubeCounts, 64>;
+
+/// What else is remembered of an octant's cubes.
 struct OctantPast {
-  std::array<CubeCounts, 64> counts{};
-  Counters<3> filled;      ///< looks that have seen something at its place
+  Counters<3> filled;      ///< looks that have seen something at a cube's place
   std::uint64_t gone = 0;  ///< cubes that have been taken out of the map; some may be there again
 };
 
@@ -79,6 +80,7 @@ struct Region {
   std::uint64_t loose_octants = 0;  ///< those that may have cubes that are not safe
   Column* column = nullptr;         ///< the one that it stands in
   std::span<Octant> octants;        ///< in Morton order
+  std::span<OctantCounts> counts;
   std::span<OctantPast> past;
 
   /// Whether there are cubes that were not in the map before the scan that was the last to hit it.

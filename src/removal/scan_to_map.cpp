@@ -14,7 +14,7 @@ struct Doubt {
   Region* region;
   std::size_t octant;
   std::uint64_t cubes;
-  int misses;          // that are needed
+  int misses;  // that are needed
 };
 
 /// One scan's look at the map: first at all that may have gone, then, with all doubts known, at what stands around.
@@ -158,11 +158,12 @@ class ScanToMapRemoval {
       const std::uint64_t filled = looks[d].filled, through = looks[d].seen_through;
       if ((filled | through) == 0) continue;
       Region& region = *doubt.region;
-      OctantPast& past = region.past[doubt.octant];
+      OctantCounts& counts = region.counts[doubt.octant];
       Octant& octant = region.octants[doubt.octant];
-      forEachBit(through, [&](int bit) { countUp(past.counts[static_cast<std::size_t>(bit)].misses); });
-      forEachBit(filled & octant.doubted, [&](int bit) { past.counts[static_cast<std::size_t>(bit)].misses = 0; });
+      forEachBit(through, [&](int bit) { countUp(counts[static_cast<std::size_t>(bit)].misses); });
+      forEachBit(filled & octant.doubted, [&](int bit) { counts[static_cast<std::size_t>(bit)].misses = 0; });
       if (const std::uint64_t loose = filled & ~octant.firm; loose != 0) {
+        OctantPast& past = region.past[doubt.octant];
         past.filled.countUp(loose);
         octant.firm |= past.filled.atLeast(static_cast<unsigned>(config_.evidence.filled));
       }
@@ -183,7 +184,7 @@ class ScanToMapRemoval {
       const Doubt& doubt = doubts_[d];
       std::uint64_t seen = 0, due = 0, sure = 0;
       forEachBit(doubt.cubes, [&](int bit) {
-        const auto [hits, misses] = doubt.region->past[doubt.octant].counts[static_cast<std::size_t>(bit)];
+        const auto [hits, misses] = doubt.region->counts[doubt.octant][static_cast<std::size_t>(bit)];
         if (look_.revert_hits > 0 && hits >= look_.revert_hits) return;
         seen |= maskOf(bit);
         if (misses >= doubt.misses) due |= maskOf(bit);

@@ -34,7 +34,7 @@ void touch(Region& region, ScanTrace& trace) {
 /// The hit cubes of an octant: in the map from now on, and with nothing that speaks against them.
 void insert(Region& region, std::size_t o, int firm) {
   Octant& octant = region.octants[o];
-  auto& counts = region.past[o].counts;
+  OctantCounts& counts = region.counts[o];
   octant.fresh = octant.hit & ~octant.occupied;
   octant.doubted &= ~octant.hit;
   forEachBit(octant.hit, [&](int bit) {

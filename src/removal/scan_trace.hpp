@@ -38,8 +38,8 @@ struct ScanTrace {
           const auto number = static_cast<std::size_t>(o);
           __builtin_prefetch(&soon.octants[number]);
           if (!kCounts) return;
-          __builtin_prefetch(&soon.past[number].counts.front());
-          __builtin_prefetch(&soon.past[number].counts.back());
+          __builtin_prefetch(&soon.counts[number].front());
+          __builtin_prefetch(&soon.counts[number].back());
         });
       }
       visit(*regions[i]);

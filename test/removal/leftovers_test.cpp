@@ -35,7 +35,7 @@ OcTreeKey at(int x, int y, int z) {
 /// A cube that one scan has hit.
 Octant& hit(RegionMap& map, const OcTreeKey& cube) {
   Octant& octant = occupy(map, cube);
-  map.regionOf(cube)->past[map.octantOf(cube)].counts[static_cast<std::size_t>(bitOf(cube))].hits = 1;
+  map.regionOf(cube)->counts[map.octantOf(cube)][static_cast<std::size_t>(bitOf(cube))].hits = 1;
   return octant;
 }
 

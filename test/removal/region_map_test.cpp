@@ -35,6 +35,7 @@ TEST_P(RegionSizes, EachCubeHasOneBitInOneOctant) {
                         .z = static_cast<key_type>(cube[2] >> map.bits()),
                         .plane = {},
                         .octants = {},
+                        .counts = {},
                         .past = {}};
     ASSERT_LT(map.octantOf(cube), map.octants());
     ASSERT_EQ(cubeOf(map.cornerOf(region, map.octantOf(cube)), bitOf(cube)), cube);

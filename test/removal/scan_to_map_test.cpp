@@ -129,7 +129,7 @@ TEST(ScanToMapRemoval, IsSureOfWhatItOftenSeesThroughNearFirmCubes) {
     look.ghost(10, 0);
     look.map().forEachColumn([&](Column& column) {
       for (const auto& region : column.regions)
-        for (OctantPast& past : region->past) past.counts.fill({.hits = hits, .misses = 0});
+        for (OctantCounts& counts : region->counts) counts.fill({.hits = hits, .misses = 0});
     });
     for (int i = 0; i < 4; ++i)
       for (int k = 0; k < 12; ++k)
@@ -235,7 +235,7 @@ TEST(ScanToMapRemoval, LeavesWhatHasStoppedToTheBackEndsGuard) {
     look.ghost(10, 0);
     look.map().forEachColumn([](Column& column) {
       for (const auto& region : column.regions)
-        for (OctantPast& past : region->past) past.counts.fill({.hits = 20, .misses = 0});
+        for (OctantCounts& counts : region->counts) counts.fill({.hits = 20, .misses = 0});
     });
     EXPECT_EQ(cubesOf(look.scan()) > 0, revert_hits == 0);
   }

@@ -61,7 +61,7 @@ TEST_P(TracedRegionSizes, CountTheScansThatHitEachCube) {
       const Octant& octant = region->octants[map.octantOf(cube)];
       const std::uint64_t mask = maskOf(bitOf(cube));
       ASSERT_TRUE(octant.occupied & mask);
-      EXPECT_EQ(region->past[map.octantOf(cube)].counts[static_cast<std::size_t>(bitOf(cube))].hits, count);
+      EXPECT_EQ(region->counts[map.octantOf(cube)][static_cast<std::size_t>(bitOf(cube))].hits, count);
       EXPECT_EQ((octant.firm & mask) != 0, count >= kFirm);
       if (region->scan != scan) continue;
       EXPECT_EQ((octant.hit & mask) != 0, now.count(at) == 1);
