@@ -55,6 +55,7 @@ RemovalConfig paperProfile() {
 
 RemovalConfig fastProfile() {
   RemovalConfig config;
+  config.ground.around = 0;
   config.evidence.everywhere = false;
   config.evidence.share = config.evidence.sure_share = 0.25;
   config.free_space.enabled = false;
