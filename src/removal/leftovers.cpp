@@ -26,8 +26,9 @@ std::vector<LooseOctant> octantsBeside(const RegionMap& map, std::span<const OcT
     Region* region = nullptr;
     std::uint64_t name = ~std::uint64_t{0};  // of the region
     for (int i = 0; i < 27; ++i) {
-      const auto beside = [&](unsigned axis, int step) { return static_cast<key_type>(corner[axis] + 4 * (step - 1)); };
-      const OcTreeKey at(beside(0, i / 9), beside(1, i / 3 % 3), beside(2, i % 3));
+      const int x = corner[0] + 4 * (i / 9 - 1), y = corner[1] + 4 * (i / 3 % 3 - 1), z = corner[2] + 4 * (i % 3 - 1);
+      if ((x | y | z) >> 16 != 0) continue;  // outside of the tree
+      const OcTreeKey at(static_cast<key_type>(x), static_cast<key_type>(y), static_cast<key_type>(z));
       if (map.nameOf(at) != name) {
         name = map.nameOf(at);
         region = map.find(name);

@@ -12,8 +12,12 @@ namespace {
 
 static_assert(std::is_trivially_destructible_v<Region> && std::is_trivially_destructible_v<Octant>);
 
-/// A region, up to where octants are aligned.
-constexpr std::size_t kRegionBytes = (sizeof(Region) + alignof(Octant) - 1) / alignof(Octant) * alignof(Octant);
+/// So many bytes, up to where octants are aligned.
+constexpr std::size_t aligned(std::size_t bytes) {
+  return (bytes + alignof(Octant) - 1) / alignof(Octant) * alignof(Octant);
+}
+
+constexpr std::size_t kRegionBytes = aligned(sizeof(Region));
 
 }  // namespace
 
@@ -35,7 +39,7 @@ void Region::remove(std::size_t octant, std::uint64_t old_cubes) {
 RegionMap::RegionMap(int size, Reader read)
     : bits_(std::countr_zero(static_cast<unsigned>(size))),
       read_(std::move(read)),
-      pool_(kRegionBytes + octants() * (sizeof(Octant) + sizeof(OctantCounts) + sizeof(OctantPast))) {}
+      pool_(kRegionBytes + aligned(octants() * (sizeof(Octant) + sizeof(OctantCounts) + sizeof(OctantPast)))) {}
 
 RegionMap::~RegionMap() {
   for (Column* column : in_order_) delete column;

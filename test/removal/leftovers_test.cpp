@@ -104,6 +104,19 @@ TEST(Leftovers, AreNothingThatWasReadFromTheTree) {
   }
 }
 
+TEST(Leftovers, AreNotOnTheOtherSideOfTheTree) {
+  RegionMap map = emptyMap();
+  const OcTreeKey here(0, 0, 0), opposite(0xfffc, 0, 0);
+  for (const OcTreeKey& corner : {here, opposite}) {
+    hit(map, corner);
+    for (int bit = 1; bit < 64; ++bit) takeOut(map, cubeOf(corner, bit));
+  }
+  RemovalResult result;
+  removeLeftovers(map, std::array{here}, {}, kCube, {.scan = 1}, result);
+  EXPECT_FALSE(isOccupied(map, here));
+  EXPECT_TRUE(isOccupied(map, opposite));
+}
+
 TEST(Leftovers, AreWhatAPlainCountFinds) {
   for (const int size : {4, 8, 16}) {
     RegionMap map = emptyMap(size);

@@ -5,6 +5,7 @@
 
 #include <array>
 #include <bit>
+#include <cstdint>
 #include <cstdlib>
 #include <map>
 #include <set>
@@ -39,6 +40,16 @@ TEST_P(RegionSizes, EachCubeHasOneBitInOneOctant) {
                         .past = {}};
     ASSERT_LT(map.octantOf(cube), map.octants());
     ASSERT_EQ(cubeOf(map.cornerOf(region, map.octantOf(cube)), bitOf(cube)), cube);
+  }
+}
+
+TEST_P(RegionSizes, EachOctantIsALineOfTheCache) {
+  RegionMap map = emptyMap(GetParam());
+  RandomCubes cubes(5, 100);
+  for (int i = 0; i < 200; ++i) {
+    const OcTreeKey cube = cubes();
+    occupy(map, cube);
+    EXPECT_EQ(reinterpret_cast<std::uintptr_t>(map.regionOf(cube)->octants.data()) % 64, 0U);
   }
 }
 
