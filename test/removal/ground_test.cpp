@@ -154,6 +154,13 @@ TEST(GroundEstimation, IsNotFarAboveAThirdOfTheGroundAround) {
   EXPECT_TRUE(topIsGround({.rise = 0.5}, 13, true));
   EXPECT_TRUE(topIsGround({.around = 0}, 13, true));
   EXPECT_TRUE(topIsGround({}, 13, false));
+
+  Ground ground;
+  ground.insert(Ground::plate(-100, -8, 2));
+  ground.insert(Ground::plate(48, 140, 15));  // as high as the top: half of all are below
+  ground.insert(Ground::plate(16, 24, 15));
+  EXPECT_TRUE(ground.is(Ground::at(100, 12, 15)));
+  EXPECT_FALSE(ground.is(Ground::at(20, 12, 15)));
 }
 
 TEST(GroundEstimation, GoesOnAcrossTheBordersOfRegions) {

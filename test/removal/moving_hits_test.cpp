@@ -71,6 +71,7 @@ class Place {
     return count;
   }
 
+  const std::vector<OcTreeKey>& rejectedFrom() const { return moving_.rejectedFrom(); }
   /// Cubes of earlier scans that the last one has taken out of the map.
   std::size_t numRemoved() const { return removed_.size(); }
 
@@ -109,8 +110,12 @@ TEST(MovingHits, AreAllOfABoxThatComesIntoTheVoidWithItsFeet) {
   config.look_back.enabled = false;
   Place place(config);
   for (int i = 0; i < 8; ++i) place.scan(false);
+  EXPECT_TRUE(place.rejectedFrom().empty());
   EXPECT_GT(place.scan(true), 50U);
   EXPECT_EQ(place.cubesOfBox(0.3, 1.3), 0);
+  EXPECT_GT(place.rejectedFrom().size(), 9U);  // octants that a front of 1.2 by 1.3 m covers
+  place.scan(false);
+  EXPECT_TRUE(place.rejectedFrom().empty());
 }
 
 TEST(MovingHits, AreFoundBesideAWallIfMuchIsNew) {

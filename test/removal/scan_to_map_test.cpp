@@ -101,6 +101,21 @@ TEST(ScanToMapRemoval, LeavesWhatStandsAmongFirmCubes) {
   EXPECT_EQ(with_fence, 0U);
 }
 
+TEST(ScanToMapRemoval, TakesDoubtsBackWhereItSeesSomething) {
+  RemovalConfig config;
+  config.evidence.interval = 1;
+  Look look(config);
+  const OcTreeKey in_wall = at(20.15, 0.15, -0.25);  // one behind what is hit
+  Octant& octant = occupy(look.map(), in_wall);
+  const Region* region = look.map().regionOf(in_wall);
+  CubeCounts& counts = region->counts[look.map().octantOf(in_wall)][static_cast<std::size_t>(bitOf(in_wall))];
+  octant.doubted = maskOf(bitOf(in_wall));
+  counts.misses = 5;
+  look.scan(true);
+  EXPECT_EQ(octant.doubted, 0U);
+  EXPECT_EQ(counts.misses, 0);
+}
+
 TEST(ScanToMapRemoval, MakesFirmWhatScansOftenSeeSomethingAt) {
   for (const int filled : {2, 3}) {
     RemovalConfig config;
