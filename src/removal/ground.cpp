@@ -43,6 +43,12 @@ std::optional<Plane> principalPlane(std::span<const LocalCube> cubes, const Grou
                .d = static_cast<float>(normal.dot(mean))};
 }
 
+/// The region that has the ground of a column; null if none is known.
+const Region* groundAt(const RegionMap& map, int x, int y) {
+  const Column* column = map.find(x, y);
+  return column != nullptr && column->base != nullptr && column->base->fitted ? column->base : nullptr;
+}
+
 /// In cubes, of a plane in its region: in the middle, from the region's lowest cube.
 float heightOf(const Plane& plane, float size) { return (plane.d - (plane.n[0] + plane.n[1]) * size / 2) / plane.n[2]; }
 
@@ -127,9 +133,8 @@ bool GroundEstimation::standsOut(const RegionMap& map, const Region& region, con
   const float z = heightOf(plane, size);
   for (int dx = -1; dx <= 1; ++dx) {
     for (int dy = -1; dy <= 1; ++dy) {
-      const Column* beside = dx == 0 && dy == 0 ? nullptr : map.find(region.x + dx, region.y + dy);
-      const Region* base = beside == nullptr ? nullptr : beside->base;
-      if (base == nullptr || !base->fitted) continue;
+      const Region* base = dx == 0 && dy == 0 ? nullptr : groundAt(map, region.x + dx, region.y + dy);
+      if (base == nullptr) continue;
       const float above = base->plane.above(half - static_cast<float>(dx) * size, half - static_cast<float>(dy) * size,
                                             z + static_cast<float>(int{region.z} - int{base->z}) * size);
       if (static_cast<double>(above) * resolution_ > config_.max_step) return true;
@@ -151,9 +156,8 @@ bool GroundEstimation::isRaised(const RegionMap& map, const Region& region, cons
   int below = 0, level = 0;
   for (int i = -kEach; i <= kEach; ++i) {
     for (int j = -kEach; j <= kEach; ++j) {
-      const Column* there = i == 0 && j == 0 ? nullptr : map.find(region.x + i * apart, region.y + j * apart);
-      const Region* base = there == nullptr ? nullptr : there->base;
-      if (base == nullptr || !base->fitted) continue;
+      const Region* base = i == 0 && j == 0 ? nullptr : groundAt(map, region.x + i * apart, region.y + j * apart);
+      if (base == nullptr) continue;
       const double above = double{z - heightOf(base->plane, size) - static_cast<float>(base->z) * size} * resolution_;
       ++(above > config_.raised + config_.rise * width * apart * std::hypot(i, j) ? below : level);
       if (3 * level > 2 * kPlaces) return false;  // most often so
@@ -193,10 +197,8 @@ void GroundEstimation::mark(const RegionMap& map, const Column& column, Region& 
   const bool is_base = &region == column.base;
   if (is_base || config_.across_regions) consider(column.base);
   if (config_.across_regions && !(is_base && region.fitted)) {
-    for (const auto& [dx, dy] : {std::pair(-1, 0), std::pair(1, 0), std::pair(0, -1), std::pair(0, 1)}) {
-      const Column* beside = map.find(region.x + dx, region.y + dy);
-      if (beside != nullptr) consider(beside->base);
-    }
+    for (const auto& [dx, dy] : {std::pair(-1, 0), std::pair(1, 0), std::pair(0, -1), std::pair(0, 1)})
+      consider(groundAt(map, region.x + dx, region.y + dy));
   }
   region.loose_octants = 0;
   for (std::size_t o = 0; o < region.octants.size(); ++o) {

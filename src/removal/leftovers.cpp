@@ -23,23 +23,13 @@ std::vector<LooseOctant> octantsBeside(const RegionMap& map, std::span<const OcT
                                        const LookConfig& look) {
   std::vector<LooseOctant> found;
   for (const OcTreeKey& corner : octants) {
-    Region* region = nullptr;
-    std::uint64_t name = ~std::uint64_t{0};  // of the region
-    for (int i = 0; i < 27; ++i) {
-      const int x = corner[0] + 4 * (i / 9 - 1), y = corner[1] + 4 * (i / 3 % 3 - 1), z = corner[2] + 4 * (i % 3 - 1);
-      if ((x | y | z) >> 16 != 0) continue;  // outside of the tree
-      const OcTreeKey at(static_cast<key_type>(x), static_cast<key_type>(y), static_cast<key_type>(z));
-      if (map.nameOf(at) != name) {
-        name = map.nameOf(at);
-        region = map.find(name);
-      }
-      const std::size_t o = map.octantOf(at);
-      if (region == nullptr || (region->loose_octants >> o & 1) == 0) continue;
-      const Octant& octant = region->octants[o];
+    forEachOctantAround(map, corner, [&](Region& region, std::size_t o, int, int, int) {
+      if ((region.loose_octants >> o & 1) == 0) return;
+      const Octant& octant = region.octants[o];
       std::uint64_t cubes = octant.occupied & ~octant.ground & ~octant.firm;
-      if (look.protect && region->scan == look.scan) cubes &= ~octant.hit;
-      if (cubes != 0) found.push_back({cell_word::fromKey(at), region, o, cubes});
-    }
+      if (look.protect && region.scan == look.scan) cubes &= ~octant.hit;
+      if (cubes != 0) found.push_back({cell_word::fromKey(map.cornerOf(region, o)), &region, o, cubes});
+    });
   }
   std::sort(found.begin(), found.end(), [](const LooseOctant& a, const LooseOctant& b) { return a.name < b.name; });
   found.erase(std::unique(found.begin(), found.end(),
@@ -66,7 +56,7 @@ void removeLeftovers(const RegionMap& map, std::span<const OcTreeKey> around, co
     const Neighbourhood near = lookAround(
         map, map.cornerOf(*octant.region, octant.octant), reach,
         [](const Region& region, std::size_t o) { return region.past[o].gone & ~region.octants[o].occupied; });
-    return near.moving < least || near.moving < config.share * (near.moving + near.firm + config.others * near.others);
+    return near.moving < least || !near.isMoving(config.share, config.others);
   });
   for (const LooseOctant& octant : octants) {  // all were found before any goes
     const std::uint64_t cubes = knownHits(octant.region->counts[octant.octant], octant.cubes);

@@ -37,13 +37,8 @@ TEST(LookAround, CountsTheCubesOfAnOctantAndSoManyAround) {
     for (int i = 0; i < 60; ++i) {
       const OcTreeKey cube = cubes();
       const int reach = 1 + i % kFarthestAround;
-      const OcTreeKey corner(static_cast<key_type>(cube[0] & ~3), static_cast<key_type>(cube[1] & ~3),
-                             static_cast<key_type>(cube[2] & ~3));
-      const auto isNear = [&](const OcTreeKey& other) {
-        for (unsigned axis = 0; axis < 3; ++axis)
-          if (other[axis] + reach < corner[axis] || other[axis] > corner[axis] + 3 + reach) return false;
-        return true;
-      };
+      const OcTreeKey corner = test::cornerOf(cube);
+      const auto isNear = [&](const OcTreeKey& other) { return test::isWithin(other, corner, reach); };
       const Neighbourhood around =
           lookAround(map, corner, reach, [](const Region& region, std::size_t o) { return region.octants[o].doubted; });
       EXPECT_EQ(around.moving, std::count_if(doubted.begin(), doubted.end(), isNear));

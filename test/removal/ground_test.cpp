@@ -11,6 +11,7 @@
 namespace rhmap {
 namespace {
 
+using test::cubeAt;
 using test::emptyMap;
 using test::kCube;
 
@@ -64,16 +65,12 @@ class Ground {
     ScanPoints points;
     points.cube = cubes;
     for (auto* v : {&points.x, &points.y, &points.z, &points.range}) v->assign(cubes.size(), 1.0F);
-    estimation_.update(map_, traceScan(map_, points, at(0, 0, 0), ++scan_, {.resolution = kCube}));
-  }
-  static OcTreeKey at(int x, int y, int z) {
-    return {static_cast<key_type>(kTreeMaxVal + x), static_cast<key_type>(kTreeMaxVal + y),
-            static_cast<key_type>(kTreeMaxVal + z)};
+    estimation_.update(map_, traceScan(map_, points, cubeAt(0, 0, 0), ++scan_, {.resolution = kCube}));
   }
   static std::vector<OcTreeKey> plate(int x0, int x1, int z) {
     std::vector<OcTreeKey> cubes;
     for (int x = x0; x < x1; ++x)
-      for (int y = 0; y < 24; ++y) cubes.push_back(at(x, y, z));
+      for (int y = 0; y < 24; ++y) cubes.push_back(cubeAt(x, y, z));
     return cubes;
   }
   bool is(const OcTreeKey& cube) const {
@@ -98,36 +95,36 @@ TEST(GroundEstimation, TellsARoadFromABoxOnIt) {
   auto cubes = Ground::plate(0, 24, 2);
   for (int x = 10; x < 14; ++x)
     for (int y = 10; y < 14; ++y)
-      for (int z = 3; z < 12; ++z) cubes.push_back(Ground::at(x, y, z));
+      for (int z = 3; z < 12; ++z) cubes.push_back(cubeAt(x, y, z));
   ground.insert(cubes);
-  EXPECT_TRUE(ground.is(Ground::at(1, 1, 2)));
-  EXPECT_TRUE(ground.isSafe(Ground::at(1, 1, 2)));
-  EXPECT_TRUE(ground.is(Ground::at(11, 11, 3)));  // within r_gro
-  EXPECT_FALSE(ground.isSafe(Ground::at(11, 11, 3)));
-  EXPECT_FALSE(ground.is(Ground::at(11, 11, 5)));
-  EXPECT_FALSE(ground.is(Ground::at(11, 11, 11)));
+  EXPECT_TRUE(ground.is(cubeAt(1, 1, 2)));
+  EXPECT_TRUE(ground.isSafe(cubeAt(1, 1, 2)));
+  EXPECT_TRUE(ground.is(cubeAt(11, 11, 3)));  // within r_gro
+  EXPECT_FALSE(ground.isSafe(cubeAt(11, 11, 3)));
+  EXPECT_FALSE(ground.is(cubeAt(11, 11, 5)));
+  EXPECT_FALSE(ground.is(cubeAt(11, 11, 11)));
 }
 
 TEST(GroundEstimation, TheRoofOfACarIsNoneOnceTheRoadIsSeen) {
   Ground ground;
   ground.insert(Ground::plate(0, 24, 18));
-  EXPECT_TRUE(ground.is(Ground::at(12, 12, 18)));
-  EXPECT_FALSE(ground.isLoose(Ground::at(12, 12, 18)));
+  EXPECT_TRUE(ground.is(cubeAt(12, 12, 18)));
+  EXPECT_FALSE(ground.isLoose(cubeAt(12, 12, 18)));
   ground.insert(Ground::plate(0, 24, 2));
-  EXPECT_FALSE(ground.is(Ground::at(12, 12, 18)));
-  EXPECT_TRUE(ground.isLoose(Ground::at(12, 12, 18)));
-  EXPECT_TRUE(ground.is(Ground::at(12, 12, 2)));
+  EXPECT_FALSE(ground.is(cubeAt(12, 12, 18)));
+  EXPECT_TRUE(ground.isLoose(cubeAt(12, 12, 18)));
+  EXPECT_TRUE(ground.is(cubeAt(12, 12, 2)));
 }
 
 TEST(GroundEstimation, WhatIsFarBelowAPlaneIsNotItsGround) {
   for (const double depth : {0.2, 0.0}) {
     Ground ground({.depth = depth});
     auto cubes = Ground::plate(0, 16, 7);
-    for (const int z : {1, 3, 6}) cubes.push_back(Ground::at(17, 12, z));  // too few for a plane of their own
+    for (const int z : {1, 3, 6}) cubes.push_back(cubeAt(17, 12, z));  // too few for a plane of their own
     ground.insert(cubes);
-    EXPECT_TRUE(ground.isSafe(Ground::at(17, 12, 6)));
-    EXPECT_EQ(ground.isSafe(Ground::at(17, 12, 3)), depth == 0);
-    EXPECT_EQ(ground.is(Ground::at(17, 12, 1)), depth == 0);
+    EXPECT_TRUE(ground.isSafe(cubeAt(17, 12, 6)));
+    EXPECT_EQ(ground.isSafe(cubeAt(17, 12, 3)), depth == 0);
+    EXPECT_EQ(ground.is(cubeAt(17, 12, 1)), depth == 0);
   }
 }
 
@@ -135,8 +132,8 @@ TEST(GroundEstimation, DoesNotClimbSteps) {
   Ground ground;
   ground.insert(Ground::plate(0, 8, 2));
   ground.insert(Ground::plate(8, 16, 7));  // beside it, half a metre up
-  EXPECT_TRUE(ground.is(Ground::at(4, 12, 2)));
-  EXPECT_FALSE(ground.is(Ground::at(12, 12, 7)));
+  EXPECT_TRUE(ground.is(cubeAt(4, 12, 2)));
+  EXPECT_FALSE(ground.is(cubeAt(12, 12, 7)));
 }
 
 TEST(GroundEstimation, IsNotFarAboveAThirdOfTheGroundAround) {
@@ -146,7 +143,7 @@ TEST(GroundEstimation, IsNotFarAboveAThirdOfTheGroundAround) {
     if (roads) ground.insert(Ground::plate(-100, -8, 2));
     if (roads) ground.insert(Ground::plate(48, 140, 2));
     ground.insert(Ground::plate(16, 24, 2 + height));
-    return ground.is(Ground::at(20, 12, 2 + height));
+    return ground.is(cubeAt(20, 12, 2 + height));
   };
   EXPECT_FALSE(topIsGround({}, 13, true));
   EXPECT_TRUE(topIsGround({}, 8, true));
@@ -159,8 +156,8 @@ TEST(GroundEstimation, IsNotFarAboveAThirdOfTheGroundAround) {
   ground.insert(Ground::plate(-100, -8, 2));
   ground.insert(Ground::plate(48, 140, 15));  // as high as the top: half of all are below
   ground.insert(Ground::plate(16, 24, 15));
-  EXPECT_TRUE(ground.is(Ground::at(100, 12, 15)));
-  EXPECT_FALSE(ground.is(Ground::at(20, 12, 15)));
+  EXPECT_TRUE(ground.is(cubeAt(100, 12, 15)));
+  EXPECT_FALSE(ground.is(cubeAt(20, 12, 15)));
 }
 
 TEST(GroundEstimation, GoesOnAcrossTheBordersOfRegions) {
@@ -169,10 +166,10 @@ TEST(GroundEstimation, GoesOnAcrossTheBordersOfRegions) {
     config.across_regions = across;
     Ground ground(config);
     auto cubes = Ground::plate(0, 24, 7);  // the highest layer of its regions
-    for (int i = 8; i < 12; ++i) cubes.push_back(Ground::at(i, i, 8));
+    for (int i = 8; i < 12; ++i) cubes.push_back(cubeAt(i, i, 8));
     ground.insert(cubes);
-    EXPECT_TRUE(ground.is(Ground::at(9, 10, 7)));
-    EXPECT_EQ(ground.is(Ground::at(9, 9, 8)), across);
+    EXPECT_TRUE(ground.is(cubeAt(9, 10, 7)));
+    EXPECT_EQ(ground.is(cubeAt(9, 9, 8)), across);
   }
 }
 

@@ -17,20 +17,13 @@
 namespace rhmap {
 namespace {
 
+using test::cornerOf;
+using test::cubeAt;
 using test::emptyMap;
 using test::isOccupied;
+using test::isWithin;
 using test::kCube;
 using test::occupy;
-
-OcTreeKey cornerOf(const OcTreeKey& cube) {
-  return {static_cast<key_type>(cube[0] & ~3), static_cast<key_type>(cube[1] & ~3),
-          static_cast<key_type>(cube[2] & ~3)};
-}
-
-OcTreeKey at(int x, int y, int z) {
-  return {static_cast<key_type>(kTreeMaxVal + x), static_cast<key_type>(kTreeMaxVal + y),
-          static_cast<key_type>(kTreeMaxVal + z)};
-}
 
 /// A cube that one scan has hit.
 Octant& hit(RegionMap& map, const OcTreeKey& cube) {
@@ -47,11 +40,11 @@ void takeOut(RegionMap& map, const OcTreeKey& cube) {
 /// What is left of an octant of which `gone` cubes have been taken out, with so many firm ones beside it.
 std::size_t leftOf(int gone, int firm = 0, const LeftoverConfig& config = {}) {
   RegionMap map = emptyMap();
-  const OcTreeKey corner = at(0, 0, 0);
+  const OcTreeKey corner = cubeAt(0, 0, 0);
   for (int bit = 0; bit < 64; ++bit)
     bit < gone ? takeOut(map, cubeOf(corner, bit)) : void(hit(map, cubeOf(corner, bit)));
   for (int i = 0; i < firm; ++i) {
-    const OcTreeKey cube = at(4, i % 4, i / 4);
+    const OcTreeKey cube = cubeAt(4, i % 4, i / 4);
     occupy(map, cube).firm |= maskOf(bitOf(cube));
   }
   RemovalResult result;
@@ -74,7 +67,7 @@ TEST(Leftovers, GoIfMostOfWhatWasThereHasGone) {
 
 TEST(Leftovers, AreNotOfTheGroundNorFirmNorHitByThisScan) {
   RegionMap map = emptyMap();
-  const OcTreeKey corner = at(0, 0, 0);
+  const OcTreeKey corner = cubeAt(0, 0, 0);
   for (int bit = 8; bit < 64; ++bit) takeOut(map, cubeOf(corner, bit));
   for (int bit = 0; bit < 4; ++bit) hit(map, cubeOf(corner, bit));
   Region* region = map.regionOf(corner);
@@ -95,7 +88,7 @@ TEST(Leftovers, AreNotOfTheGroundNorFirmNorHitByThisScan) {
 TEST(Leftovers, AreNothingThatWasReadFromTheTree) {
   for (const bool was_hit : {true, false}) {
     RegionMap map = emptyMap();
-    const OcTreeKey corner = at(0, 0, 0);
+    const OcTreeKey corner = cubeAt(0, 0, 0);
     for (int bit = 1; bit < 64; ++bit) takeOut(map, cubeOf(corner, bit));
     was_hit ? hit(map, corner) : occupy(map, corner);
     RemovalResult result;
@@ -145,19 +138,14 @@ TEST(Leftovers, AreWhatAPlainCountFinds) {
       }
     }
     const LeftoverConfig config;
-    const auto within = [](const OcTreeKey& cube, const OcTreeKey& corner, int reach) {
-      for (unsigned axis = 0; axis < 3; ++axis)
-        if (cube[axis] + reach < corner[axis] || cube[axis] > corner[axis] + 3 + reach) return false;
-      return true;
-    };
     const auto goes = [&](const OcTreeKey& cube) {
       const OcTreeKey corner = cornerOf(cube);
-      const auto near = [&](const OcTreeKey& other) { return within(other, corner, 3); };
+      const auto near = [&](const OcTreeKey& other) { return isWithin(other, corner, 3); };
       const auto moved = static_cast<double>(std::count_if(gone.begin(), gone.end(), near));
       const auto stand = static_cast<double>(std::count_if(firm.begin(), firm.end(), near));
       const auto more = static_cast<double>(std::count_if(others.begin(), others.end(), near));
       const bool is_beside =
-          std::any_of(changed.begin(), changed.end(), [&](const OcTreeKey& at) { return within(corner, at, 4); });
+          std::any_of(changed.begin(), changed.end(), [&](const OcTreeKey& at) { return isWithin(corner, at, 4); });
       return is_beside && moved >= config.least / (kCube * kCube) &&
              moved >= config.share * (moved + stand + config.others * more);
     };

@@ -62,10 +62,7 @@ class Place {
     int count = 0;
     for (int y = -6; y < 6; ++y) {
       for (int z = static_cast<int>((from - 1.7) / kCube); z < static_cast<int>((to - 1.7) / kCube); ++z) {
-        for (int x = 79; x <= 80; ++x)
-          count +=
-              test::isOccupied(map_, {static_cast<key_type>(kTreeMaxVal + x), static_cast<key_type>(kTreeMaxVal + y),
-                                      static_cast<key_type>(kTreeMaxVal + z)});
+        for (int x = 79; x <= 80; ++x) count += test::isOccupied(map_, test::cubeAt(x, y, z));
       }
     }
     return count;

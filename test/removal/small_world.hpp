@@ -36,6 +36,25 @@ inline bool isOccupied(const RegionMap& map, const OcTreeKey& cube) {
   return region != nullptr && (region->octants[map.octantOf(cube)].occupied & maskOf(bitOf(cube))) != 0;
 }
 
+/// A cube, counted from the middle of the key space.
+inline OcTreeKey cubeAt(int x, int y, int z) {
+  const auto key = [](int k) { return static_cast<key_type>(kTreeMaxVal + k); };
+  return {key(x), key(y), key(z)};
+}
+
+/// The lowest cube of a cube's octant.
+inline OcTreeKey cornerOf(const OcTreeKey& cube) {
+  const auto low = [](key_type k) { return static_cast<key_type>(k & ~3); };
+  return {low(cube[0]), low(cube[1]), low(cube[2])};
+}
+
+/// Whether a cube is in an octant (its lowest cube) or up to `reach` cubes away.
+inline bool isWithin(const OcTreeKey& cube, const OcTreeKey& corner, int reach) {
+  for (unsigned axis = 0; axis < 3; ++axis)
+    if (cube[axis] + reach < corner[axis] || cube[axis] > corner[axis] + 3 + reach) return false;
+  return true;
+}
+
 /// Cubes about the middle of the key space.
 class RandomCubes {
  public:
