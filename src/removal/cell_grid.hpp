@@ -50,6 +50,12 @@ class CellGrid {
     if (x >= 0 && y >= 0 && x < side_ && y < side_ && z >= 0 && z < 64) word(x, y) |= std::uint64_t{1} << z;
   }
 
+  /// Sets the cells between two that are set, one above and one below, but for those of another grid of the same
+  /// window.
+  void closeGaps(const CellGrid& except) {
+    for (std::size_t i = 0; i < words_.size(); ++i) words_[i] |= words_[i] << 1 & words_[i] >> 1 & ~except.words_[i];
+  }
+
   /// Clears the cells that are not in another grid of the same window.
   void intersect(const CellGrid& other) {
     for (std::size_t i = 0; i < words_.size(); ++i) words_[i] &= other.words_[i];

@@ -33,6 +33,7 @@ void FreeSpace::Tile::moveTo(int z) {
     column.is_void = shifted(column.is_void, z - z0);
     column.is_open = shifted(column.is_open, z - z0);
     column.crossed.shift(z - z0);
+    column.crossings.shift(z - z0);
   }
   for (Counters<8>& counters : hits) counters.shift(z - z0);
   z0 = z;
@@ -82,6 +83,7 @@ void FreeSpace::observe(const RegionMap& map, const ScanTrace& trace, const std:
     VoidRays rays;
     markHits(map, trace, from, &rays);
     followRays(from, rays, hit_, crossed_);
+    crossed_.closeGaps(hit_);
     update();
   } else {
     markHits(map, trace, from, nullptr);
@@ -171,6 +173,7 @@ void FreeSpace::update() {
       }
       column.crossed.reset(hit_.word(cx, cy));
       column.crossed.countUp(crossed_.word(cx, cy));
+      column.crossings.countUp(crossed_.word(cx, cy));
       const std::uint64_t often = column.crossed.atLeast(static_cast<unsigned>(config_.tau_f));
       column.is_void |= clear_.word(cx, cy) & often;
       column.is_open |= open_.word(cx, cy) & often;

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <cstddef>
 #include <cstdint>
@@ -45,9 +46,18 @@ class FreeSpace {
   void observe(const RegionMap& map, const ScanTrace& trace, const std::array<float, 3>& sensor);
 
   /// Whether a cell around the sensor is void, as of the last scan.
-  bool isVoid(int x, int y, int z) const { return holds(&CellColumn::is_void, x, y, z); }
+  bool isVoid(int x, int y, int z) const {
+    return holds(x, y, z, [](const auto& column) { return column.is_void; });
+  }
   /// Whether it would be, were the cells on one of its sides crossed, too.
-  bool isOpen(int x, int y, int z) const { return holds(&CellColumn::is_open, x, y, z); }
+  bool isOpen(int x, int y, int z) const {
+    return holds(x, y, z, [](const auto& column) { return column.is_open; });
+  }
+  /// Whether rays have crossed the cell in at least so many followed scans (15 stand for more).
+  bool isCrossed(int x, int y, int z, unsigned scans) const {
+    scans = std::min(scans, kMostCrossings);
+    return holds(x, y, z, [scans](const auto& column) { return column.crossings.atLeast(scans); });
+  }
   /// The cells that the last scan has hit.
   const CellGrid& ends() const { return ends_; }
   /// A cell is 2^shift cubes wide.
@@ -59,11 +69,14 @@ class FreeSpace {
   std::size_t memoryUsage() const { return tiles_.memoryUsage() + tiles_.size() * sizeof(Tile); }
 
  private:
+  static constexpr unsigned kMostCrossings = Counters<4>::kMost;
+
   /// 64 cells above each other.
   struct CellColumn {
     std::uint64_t is_void = 0;
     std::uint64_t is_open = 0;  // void but for one side
     Counters<3> crossed;        // followed scans since the last hit
+    Counters<4> crossings;      // followed scans, ever
   };
   /// 8 x 8 columns of cells; what is kept from scan to scan.
   struct Tile {
@@ -74,12 +87,14 @@ class FreeSpace {
 
     void moveTo(int z);
   };
-  bool holds(std::uint64_t CellColumn::*cells, int x, int y, int z) const {
+  /// What cellsOf(column) says of a cell around the sensor; no of others.
+  template <class CellsOf>
+  bool holds(int x, int y, int z, CellsOf&& cellsOf) const {
     x -= ends_.x0(), y -= ends_.y0();
     if (x < 0 || y < 0 || x >= ends_.side() || y >= ends_.side()) return false;
     const Tile* tile = window_[static_cast<std::size_t>((y >> 3) * (ends_.side() >> 3) + (x >> 3))];
     if (tile == nullptr || z < tile->z0 || z >= tile->z0 + 64) return false;
-    return (tile->columns[static_cast<std::size_t>((y & 7) * 8 + (x & 7))].*cells >> (z - tile->z0) & 1) != 0;
+    return (cellsOf(tile->columns[static_cast<std::size_t>((y & 7) * 8 + (x & 7))]) >> (z - tile->z0) & 1) != 0;
   }
   void openWindow(const std::array<int, 3>& cell);
   template <class F>

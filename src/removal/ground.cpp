@@ -144,7 +144,7 @@ bool GroundEstimation::standsOut(const RegionMap& map, const Region& region, con
 }
 
 /// Nor is it far above a third of what is ground around: what is seen over a row of cars is roofs and heads, in many
-/// columns beside each other.
+/// columns beside each other. On a slope, as much is above it as below.
 bool GroundEstimation::isRaised(const RegionMap& map, const Region& region, const Plane& plane) const {
   if (config_.around <= 0) return false;
   constexpr int kEach = 2, kPlaces = (2 * kEach + 1) * (2 * kEach + 1) - 1;  // to all sides
@@ -153,17 +153,18 @@ bool GroundEstimation::isRaised(const RegionMap& map, const Region& region, cons
   const double width = map.size() * resolution_;                                                   // [m]
   const auto apart = static_cast<int>(std::max(1L, std::lround(config_.around / kEach / width)));  // columns
   const float z = heightOf(plane, size) + static_cast<float>(region.z) * size;
-  int below = 0, level = 0;
+  int below = 0, level = 0, above = 0;
   for (int i = -kEach; i <= kEach; ++i) {
     for (int j = -kEach; j <= kEach; ++j) {
       const Region* base = i == 0 && j == 0 ? nullptr : groundAt(map, region.x + i * apart, region.y + j * apart);
       if (base == nullptr) continue;
-      const double above = double{z - heightOf(base->plane, size) - static_cast<float>(base->z) * size} * resolution_;
-      ++(above > config_.raised + config_.rise * width * apart * std::hypot(i, j) ? below : level);
+      const double step = double{z - heightOf(base->plane, size) - static_cast<float>(base->z) * size} * resolution_;
+      const double least = config_.raised + config_.rise * width * apart * std::hypot(i, j);
+      ++(step > least ? below : step < -least ? above : level);
       if (3 * level > 2 * kPlaces) return false;  // most often so
     }
   }
-  return below >= kEnough && 3 * below >= below + level;
+  return below >= kEnough && 3 * (below - above) >= below + level + above;
 }
 
 void GroundEstimation::fit(const RegionMap& map, Region& region) const {

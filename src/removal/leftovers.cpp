@@ -2,6 +2,7 @@
 #include "leftovers.hpp"
 
 #include <algorithm>
+#include <utility>
 #include <vector>
 
 #include "evidence.hpp"
@@ -18,25 +19,48 @@ struct LooseOctant {
   std::uint64_t cubes;
 };
 
-/// The octants at and beside some that have such cubes, each once.
-std::vector<LooseOctant> octantsBeside(const RegionMap& map, std::span<const OcTreeKey> octants,
-                                       const LookConfig& look) {
-  std::vector<LooseOctant> found;
-  for (const OcTreeKey& corner : octants) {
-    forEachOctantAround(map, corner, [&](Region& region, std::size_t o, int, int, int) {
-      if ((region.loose_octants >> o & 1) == 0) return;
-      const Octant& octant = region.octants[o];
-      std::uint64_t cubes = octant.occupied & ~octant.ground & ~octant.firm;
-      if (look.protect && region.scan == look.scan) cubes &= ~octant.hit;
-      if (cubes != 0) found.push_back({cell_word::fromKey(map.cornerOf(region, o)), &region, o, cubes});
+/// Finds octants that may hold leftovers.
+class LooseOctants {
+ public:
+  LooseOctants(const RegionMap& map, const LookConfig& look) : map_(map), look_(look) {}
+
+  void addAround(std::span<const OcTreeKey> octants) {
+    for (const OcTreeKey& corner : octants)
+      forEachOctantAround(map_, corner, [&](Region& region, std::size_t o, int, int, int) { add(region, o); });
+  }
+
+  void addThinnedColumns(int interval) {
+    const auto isDue = [&](const Column& column) {
+      return column.thinned && turnOf(column.x, column.y, look_.scan) % static_cast<std::uint32_t>(interval) == 0;
+    };
+    map_.forEachColumn(isDue, [&](const Column& column) {
+      for (Region* region : column.regions)
+        forEachBit(region->loose_octants, [&](int o) { add(*region, static_cast<std::size_t>(o)); });
     });
   }
-  std::sort(found.begin(), found.end(), [](const LooseOctant& a, const LooseOctant& b) { return a.name < b.name; });
-  found.erase(std::unique(found.begin(), found.end(),
-                          [](const LooseOctant& a, const LooseOctant& b) { return a.name == b.name; }),
-              found.end());
-  return found;
-}
+
+  /// Each once.
+  std::vector<LooseOctant> take() {
+    std::sort(found_.begin(), found_.end(), [](const LooseOctant& a, const LooseOctant& b) { return a.name < b.name; });
+    found_.erase(std::unique(found_.begin(), found_.end(),
+                             [](const LooseOctant& a, const LooseOctant& b) { return a.name == b.name; }),
+                 found_.end());
+    return std::move(found_);
+  }
+
+ private:
+  void add(Region& region, std::size_t o) {
+    if ((region.loose_octants >> o & 1) == 0) return;
+    const Octant& octant = region.octants[o];
+    std::uint64_t cubes = octant.occupied & ~octant.ground & ~octant.firm;
+    if (look_.protect && region.scan == look_.scan) cubes &= ~octant.hit;
+    if (cubes != 0) found_.push_back({cell_word::fromKey(map_.cornerOf(region, o)), &region, o, cubes});
+  }
+
+  const RegionMap& map_;
+  const LookConfig& look_;
+  std::vector<LooseOctant> found_;
+};
 
 /// Of some cubes, those that scans are known to have hit, and not just read from the tree.
 std::uint64_t knownHits(const OctantCounts& counts, std::uint64_t cubes) {
@@ -47,11 +71,14 @@ std::uint64_t knownHits(const OctantCounts& counts, std::uint64_t cubes) {
 
 }  // namespace
 
-void removeLeftovers(const RegionMap& map, std::span<const OcTreeKey> around, const LeftoverConfig& config,
-                     double resolution, const LookConfig& look, RemovalResult& result) {
+void removeLeftovers(const RegionMap& map, std::span<const OcTreeKey> changed, int interval,
+                     const LeftoverConfig& config, double resolution, const LookConfig& look, RemovalResult& result) {
   const int reach = cubesAround(config.reach, resolution);
   const double least = config.least / (resolution * resolution);
-  std::vector<LooseOctant> octants = octantsBeside(map, around, look);
+  LooseOctants loose(map, look);
+  loose.addAround(changed);
+  if (interval > 0) loose.addThinnedColumns(interval);
+  std::vector<LooseOctant> octants = loose.take();
   std::erase_if(octants, [&](const LooseOctant& octant) {
     const Neighbourhood near = lookAround(
         map, map.cornerOf(*octant.region, octant.octant), reach,

@@ -29,7 +29,7 @@ void Region::remove(std::size_t octant, std::uint64_t old_cubes) {
   from.doubted &= ~old_cubes;
   from.firm &= ~old_cubes;
   cubes = static_cast<std::uint16_t>(cubes - std::popcount(old_cubes));
-  column->stale = true;
+  column->stale = column->thinned = true;
   OctantPast& of = past[octant];
   of.gone |= old_cubes;
   of.filled.reset(old_cubes);

@@ -50,8 +50,10 @@ using OctantCounts = std::array<CubeCounts, 64>;
 
 /// What else is remembered of an octant's cubes.
 struct OctantPast {
-  Counters<3> filled;      ///< looks that have seen something at a cube's place
-  std::uint64_t gone = 0;  ///< cubes that have been taken out of the map; some may be there again
+  Counters<3> filled;       ///< looks that have seen something at a cube's place
+  std::uint64_t gone = 0;   ///< cubes that have been taken out of the map; some may be there again
+  std::uint32_t first = 0;  ///< the first scan that has hit the octant; 0: none
+  std::uint8_t scans = 0;   ///< scans that have hit it, up to 255
 };
 
 /// One more, up to 255.
@@ -66,6 +68,9 @@ struct Plane {
 };
 
 struct Column;
+
+/// Whose turn it is goes over the columns from scan to scan, so that all scans have the same to do.
+inline std::uint32_t turnOf(key_type x, key_type y, std::uint32_t scan) { return x + y + scan; }
 
 /// M_{I_r}: a region, a cube of 4, 8 or 16 cubes an axis.
 struct Region {
@@ -108,6 +113,7 @@ struct Column {
   int h_min = 0, h_max = -1;     ///< keys of the lowest and the highest cube; none: max < min
   bool doubtful = false;         ///< so may one of its regions be
   bool stale = false;            ///< cubes were removed since h_min and h_max were computed
+  bool thinned = false;          ///< cubes were removed
   Region* base = nullptr;        ///< where R-GPE looks for ground: the lowest region with a cube
   std::vector<Region*> regions;  ///< by z, ascending
 

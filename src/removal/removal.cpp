@@ -8,6 +8,7 @@
 
 #include "leftovers.hpp"
 #include "rhmap/octree/scan_marking.hpp"
+#include "standing.hpp"
 #include "tree_reader.hpp"
 
 namespace rhmap {
@@ -87,6 +88,8 @@ ScanReport RhMap::Removal::process(const octomap::Pointcloud& points, const octo
   std::span<const OcTreeKey> rejected_from;
   if (insert && (config_.free_space.enabled || config_.look_back.enabled)) {
     free_space_.observe(regions_, trace, context.view.origin());
+    if (config_.standing.enabled)
+      noteStanding(regions_, trace, free_space_, config_.standing, config_.free_space.interval);
     report.rejected = moving_hits_.reject(regions_, trace, free_space_, result.removed);
     rejected_from = moving_hits_.rejectedFrom();
     moving_hits_.remember(scan_, context);
@@ -97,7 +100,7 @@ ScanReport RhMap::Removal::process(const octomap::Pointcloud& points, const octo
   const LookConfig look{
       .scan = scan_, .protect = config_.protect_hits, .revert_hits = 0, .everywhere = config_.evidence.everywhere};
   removeByScan(regions_, context, config_, resolution_, look, result);
-  clearUp(rejected_from, look, result);
+  clearUp(rejected_from, config_.leftovers.interval, look, result);
   clock.charge(Stage::kRemoval);
 
   if (insert) report.inserted = write(trace, points, pose);
@@ -119,6 +122,9 @@ ScanReport RhMap::Removal::finish() {
   ScanReport report;
   StageClock clock(report);
   while (const auto keyframe = keyframes_.pop()) lookAgain(*keyframe, false, report);
+  RemovalResult result;
+  clearUp({}, 1, {.scan = scan_, .protect = false, .revert_hits = 0, .everywhere = false}, result);
+  erase(result, report);
   clock.charge(Stage::kBackEnd);
   return report;
 }
@@ -144,16 +150,17 @@ void RhMap::Removal::lookAgain(const ScanContext& keyframe, bool protect, ScanRe
                         .revert_hits = config_.back_end.revert_hits,
                         .everywhere = false};
   removeByScan(regions_, keyframe, config_, resolution_, look, result);
-  clearUp({}, look, result);
+  clearUp({}, 0, look, result);
   erase(result, report);
 }
 
-/// What is left of that of which much has gone: from these octants, and from those of the result.
-void RhMap::Removal::clearUp(std::span<const OcTreeKey> octants, const LookConfig& look, RemovalResult& result) {
+/// What is left of that of which much has gone: from these octants and from those of the result, and where it is due.
+void RhMap::Removal::clearUp(std::span<const OcTreeKey> octants, int interval, const LookConfig& look,
+                             RemovalResult& result) {
   if (!config_.leftovers.enabled) return;
   changed_.assign(octants.begin(), octants.end());
   for (const RemovedCubesOf& removed : result.removed) changed_.push_back(removed.corner);
-  removeLeftovers(regions_, changed_, config_.leftovers, resolution_, look, result);
+  removeLeftovers(regions_, changed_, interval, config_.leftovers, resolution_, look, result);
 }
 
 /// The hit cubes that are in the map, into the tree: as OctoMap's updateNode for each. Returns how many there are.

@@ -34,7 +34,7 @@ class RhMap::Removal {
   ScanContext contextOf(const octomap::pose6d& pose, ScanTrace& trace, const OcTreeKey& sensor,
                         const RangeImage& image) const;
   void lookAgain(const ScanContext& keyframe, bool protect, ScanReport& report);
-  void clearUp(std::span<const OcTreeKey> octants, const LookConfig& look, RemovalResult& result);
+  void clearUp(std::span<const OcTreeKey> octants, int interval, const LookConfig& look, RemovalResult& result);
   std::size_t write(const ScanTrace& trace, const octomap::Pointcloud& points, const octomap::pose6d& pose);
   void forgetFree(const OcTreeKey& corner, std::uint64_t cubes);
   void markFree(const octomap::Pointcloud& points, const octomap::pose6d& pose);

@@ -46,6 +46,7 @@ RemovalConfig paperProfile() {
   config.visibility.enabled = false;
   config.evidence.everywhere = false;
   config.evidence.share = config.evidence.sure_share = 0;
+  config.standing.enabled = false;
   config.free_space.enabled = false;
   config.look_back.enabled = false;
   config.leftovers.enabled = false;
@@ -124,6 +125,9 @@ void validate(const RemovalConfig& c) {
   atLeast0("evidence.sure_ratio", c.evidence.sure_ratio);
   length("evidence.sure_reach", c.evidence.sure_reach);
   share("evidence.sure_share", c.evidence.sure_share);
+  between(1, 255, "standing.scans", c.standing.scans, "between 1 and 255");
+  atLeast0("standing.time", c.standing.time);
+  atLeast0("standing.crossed", c.standing.crossed);
   length("free_space.cell", c.free_space.cell);
   between(1e-6, 200, "free_space.max_range", c.free_space.max_range, "above 0 and up to 200 m");
   atLeast0("free_space.surface", c.free_space.surface);
@@ -144,6 +148,7 @@ void validate(const RemovalConfig& c) {
   atLeast0("leftovers.least", c.leftovers.least);
   share("leftovers.share", c.leftovers.share);
   atLeast0("leftovers.others", c.leftovers.others);
+  atLeast1("leftovers.interval", c.leftovers.interval);
   length("back_end.distance", c.back_end.distance);
   atLeast1("back_end.scans", c.back_end.scans);
   atLeast0("back_end.information", c.back_end.information);

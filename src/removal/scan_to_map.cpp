@@ -91,7 +91,7 @@ class ScanToMapRemoval {
     const auto interval = static_cast<std::uint32_t>(config_.evidence.interval);
     const auto doubtful_interval = static_cast<std::uint32_t>(config_.evidence.doubtful_interval);
     const auto isDue = [&](const Column& column) {
-      const std::uint32_t turn = turnOf(column.x, column.y);
+      const std::uint32_t turn = turnOf(column.x, column.y, look_.scan);
       if (turn % interval != 0 && !(column.doubtful && turn % doubtful_interval == 0)) return false;
       const float dx = static_cast<float>(column.x << map_.bits()) - sensor[0];
       const float dy = static_cast<float>(column.y << map_.bits()) - sensor[1];
@@ -104,9 +104,6 @@ class ScanToMapRemoval {
     });
   }
 
-  /// Whose turn it is goes over the columns from scan to scan, so that all scans have the same to do.
-  std::uint32_t turnOf(key_type x, key_type y) const { return x + y + look_.scan; }
-
   void lookAt(Region& region, int misses) {
     if (misses == 1) {
       result_.is_protected += region.cubes;
@@ -114,8 +111,8 @@ class ScanToMapRemoval {
       return;
     }
     region.doubtful = false;
-    const bool all_ground =
-        misses == 1 || turnOf(region.x, region.y) % static_cast<std::uint32_t>(config_.evidence.ground_interval) == 0;
+    const std::uint32_t turn = turnOf(region.x, region.y, look_.scan);
+    const bool all_ground = misses == 1 || turn % static_cast<std::uint32_t>(config_.evidence.ground_interval) == 0;
     forEachBit(region.loose_octants, [&](int number) {
       const auto o = static_cast<std::size_t>(number);
       const Octant& octant = region.octants[o];

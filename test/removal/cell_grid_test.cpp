@@ -87,6 +87,19 @@ TEST(CellGrid, DoesNotMindWhatWasInTheMemoryItIsGiven) {
   expectEqual(grid.dilated(other), grid.dilated({}));
 }
 
+TEST(CellGrid, ClosesGapsOfOneCellBetweenUpperAndLower) {
+  const CellGrid grid = randomGrid(17, 50), except = randomGrid(18, 50);
+  CellGrid closed = grid;
+  closed.closeGaps(except);
+  int filled = 0;
+  forEachCellOfTheWindow([&](int x, int y, int z) {
+    const bool is_gap = grid.at(x, y, z - 1) && grid.at(x, y, z + 1) && !except.at(x, y, z);
+    ASSERT_EQ(closed.at(x, y, z), grid.at(x, y, z) || is_gap) << x << ' ' << y << ' ' << z;
+    filled += is_gap && !grid.at(x, y, z);
+  });
+  EXPECT_GT(filled, 100);
+}
+
 TEST(CellGrid, IntersectsCellByCell) {
   const CellGrid a = randomGrid(12, 50), b = randomGrid(13, 50);
   CellGrid both = a;

@@ -35,15 +35,18 @@ class Hall {
         map_, trace,
         {static_cast<float>(kTreeMaxVal), static_cast<float>(kTreeMaxVal), static_cast<float>(kTreeMaxVal)});
   }
-  bool isVoid(double x, double y, double z) const {
-    const auto cell = [&](double v) {
-      return static_cast<int>(std::floor(v / kCube) + kTreeMaxVal) >> free_space_.shift();
-    };
-    return free_space_.isVoid(cell(x), cell(y), cell(z));
+  bool isVoid(double x, double y, double z) const { return free_space_.isVoid(cell(x), cell(y), cell(z)); }
+  /// In how many followed scans rays have crossed a cell, as far as that is counted.
+  unsigned crossings(double x, double y, double z) const {
+    unsigned n = 0;
+    while (n < 15 && free_space_.isCrossed(cell(x), cell(y), cell(z), n + 1)) ++n;
+    return n;
   }
   FreeSpace& freeSpace() { return free_space_; }
 
  private:
+  int cell(double v) const { return static_cast<int>(std::floor(v / kCube) + kTreeMaxVal) >> free_space_.shift(); }
+
   OcTreeKey sensor_{kTreeMaxVal, kTreeMaxVal, kTreeMaxVal};
   RegionMap map_ = test::emptyMap();
   FreeSpace free_space_;
@@ -90,6 +93,20 @@ TEST(FreeSpace, IsNotVoidWhereSomethingStandsAllTheTime) {
   EXPECT_FALSE(hall.isVoid(3, 0, 0));
   EXPECT_FALSE(hall.isVoid(4, 0, 0));  // in its shadow
   EXPECT_TRUE(hall.isVoid(1.5, 0, 0));
+}
+
+TEST(FreeSpace, CountsAllScansWhoseRaysHaveCrossedACell) {
+  Hall hall({.interval = 2});
+  for (int i = 0; i < 8; ++i) hall.scan(i == 3 || i == 6 ? 3 : 0);  // the rays of the second are not followed
+  EXPECT_EQ(hall.crossings(3, 0, 0), 3U);
+  EXPECT_EQ(hall.crossings(4, 0, 0), 3U);  // in the shadow
+  EXPECT_EQ(hall.crossings(2, 0, 0), 4U);
+  EXPECT_EQ(hall.crossings(-3, 0.5, 0), 4U);
+  EXPECT_EQ(hall.crossings(6.1, 0.5, 0), 0U);  // in a wall
+  EXPECT_EQ(hall.crossings(200, 0, 0), 0U);
+  for (int i = 0; i < 40; ++i) hall.scan();
+  EXPECT_EQ(hall.crossings(3, 0, 0), 15U);
+  EXPECT_TRUE(hall.freeSpace().isCrossed(kTreeMaxVal >> 2, kTreeMaxVal >> 2, kTreeMaxVal >> 2, 100));  // 15 are many
 }
 
 TEST(FreeSpace, ComesBackWhenSomethingStays) {

@@ -140,8 +140,8 @@ TEST(GroundEstimation, IsNotFarAboveAThirdOfTheGroundAround) {
   // Roads begin 2.4 m from a top on both sides of it.
   const auto topIsGround = [](const GroundConfig& config, int height, bool roads) {
     Ground ground(config);
-    if (roads) ground.insert(Ground::plate(-100, -8, 2));
-    if (roads) ground.insert(Ground::plate(48, 140, 2));
+    if (roads) ground.insert(Ground::plate(-160, -8, 2));
+    if (roads) ground.insert(Ground::plate(48, 200, 2));
     ground.insert(Ground::plate(16, 24, 2 + height));
     return ground.is(cubeAt(20, 12, 2 + height));
   };
@@ -153,11 +153,17 @@ TEST(GroundEstimation, IsNotFarAboveAThirdOfTheGroundAround) {
   EXPECT_TRUE(topIsGround({}, 13, false));
 
   Ground ground;
-  ground.insert(Ground::plate(-100, -8, 2));
-  ground.insert(Ground::plate(48, 140, 15));  // as high as the top: half of all are below
+  ground.insert(Ground::plate(-160, -8, 2));
+  ground.insert(Ground::plate(48, 200, 15));  // as high as the top: half of all are below
   ground.insert(Ground::plate(16, 24, 15));
   EXPECT_TRUE(ground.is(cubeAt(100, 12, 15)));
   EXPECT_FALSE(ground.is(cubeAt(20, 12, 15)));
+
+  Ground slope;
+  slope.insert(Ground::plate(-160, -8, 2));
+  slope.insert(Ground::plate(48, 200, 28));  // as much is above as below
+  slope.insert(Ground::plate(16, 24, 15));
+  EXPECT_TRUE(slope.is(cubeAt(20, 12, 15)));
 }
 
 TEST(GroundEstimation, GoesOnAcrossTheBordersOfRegions) {

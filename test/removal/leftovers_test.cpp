@@ -48,7 +48,7 @@ std::size_t leftOf(int gone, int firm = 0, const LeftoverConfig& config = {}) {
     occupy(map, cube).firm |= maskOf(bitOf(cube));
   }
   RemovalResult result;
-  removeLeftovers(map, std::array{corner}, config, kCube, {.scan = 1}, result);
+  removeLeftovers(map, std::array{corner}, 0, config, kCube, {.scan = 1}, result);
   const Octant& octant = map.regionOf(corner)->octants[map.octantOf(corner)];
   return static_cast<std::size_t>(std::popcount(octant.occupied));
 }
@@ -75,13 +75,13 @@ TEST(Leftovers, AreNotOfTheGroundNorFirmNorHitByThisScan) {
   octant.ground = 1, octant.firm = 2, octant.hit = 4;
   region->scan = 7;
   RemovalResult result;
-  removeLeftovers(map, std::array{corner}, {}, kCube, {.scan = 7}, result);
+  removeLeftovers(map, std::array{corner}, 0, {}, kCube, {.scan = 7}, result);
   EXPECT_EQ(octant.occupied, 7U);
   ASSERT_EQ(result.removed.size(), 1U);
   EXPECT_EQ(result.removed[0].corner, corner);
   EXPECT_EQ(result.removed[0].cubes, 8U);
   EXPECT_FALSE(result.removed[0].seen_through);
-  removeLeftovers(map, std::array{corner}, {}, kCube, {.scan = 7, .protect = false}, result);
+  removeLeftovers(map, std::array{corner}, 0, {}, kCube, {.scan = 7, .protect = false}, result);
   EXPECT_EQ(octant.occupied, 3U);
 }
 
@@ -92,9 +92,35 @@ TEST(Leftovers, AreNothingThatWasReadFromTheTree) {
     for (int bit = 1; bit < 64; ++bit) takeOut(map, cubeOf(corner, bit));
     was_hit ? hit(map, corner) : occupy(map, corner);
     RemovalResult result;
-    removeLeftovers(map, std::array{corner}, {}, kCube, {.scan = 1}, result);
+    removeLeftovers(map, std::array{corner}, 0, {}, kCube, {.scan = 1}, result);
     EXPECT_EQ(isOccupied(map, corner), !was_hit);
   }
+}
+
+TEST(Leftovers, AreFoundInTurnWhereverCubesHaveGone) {
+  constexpr int kInterval = 5, kColumns = 12;  // in x; all cubes of an octant have gone but one
+  RegionMap map = emptyMap();
+  const auto corner = [](int i) { return cubeAt(8 * i, 0, 0); };
+  for (int i = 0; i < kColumns; ++i) {
+    hit(map, corner(i));
+    for (int bit = 1; bit < 64; ++bit) takeOut(map, cubeOf(corner(i), bit));
+  }
+  RemovalResult result;
+  std::set<int> left;
+  for (int i = 0; i < kColumns; ++i) left.insert(i);
+  for (std::uint32_t scan = 1; scan <= kInterval; ++scan) {
+    removeLeftovers(map, {}, kInterval, {}, kCube, {.scan = scan}, result);
+    std::erase_if(
+        left, [&](int i) { return (map.regionOf(corner(i))->x + map.regionOf(corner(i))->y + scan) % kInterval == 0; });
+    for (int i = 0; i < kColumns; ++i) EXPECT_EQ(isOccupied(map, corner(i)), left.contains(i)) << scan;
+  }
+  EXPECT_TRUE(left.empty());
+
+  hit(map, corner(3));
+  removeLeftovers(map, {}, 0, {}, kCube, {.scan = 6}, result);
+  EXPECT_TRUE(isOccupied(map, corner(3)));
+  removeLeftovers(map, {}, 1, {}, kCube, {.scan = 6}, result);
+  EXPECT_FALSE(isOccupied(map, corner(3)));
 }
 
 TEST(Leftovers, AreNotOnTheOtherSideOfTheTree) {
@@ -105,7 +131,7 @@ TEST(Leftovers, AreNotOnTheOtherSideOfTheTree) {
     for (int bit = 1; bit < 64; ++bit) takeOut(map, cubeOf(corner, bit));
   }
   RemovalResult result;
-  removeLeftovers(map, std::array{here}, {}, kCube, {.scan = 1}, result);
+  removeLeftovers(map, std::array{here}, 0, {}, kCube, {.scan = 1}, result);
   EXPECT_FALSE(isOccupied(map, here));
   EXPECT_TRUE(isOccupied(map, opposite));
 }
@@ -152,7 +178,7 @@ TEST(Leftovers, AreWhatAPlainCountFinds) {
     std::vector<OcTreeKey> expected;
     std::copy_if(others.begin(), others.end(), std::back_inserter(expected), goes);
     RemovalResult result;
-    removeLeftovers(map, changed, config, kCube, {.scan = 1}, result);
+    removeLeftovers(map, changed, 0, config, kCube, {.scan = 1}, result);
     EXPECT_GT(expected.size(), 100U);
     EXPECT_GT(others.size(), expected.size() + 100);
     for (const OcTreeKey& cube : others)

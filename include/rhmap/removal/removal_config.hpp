@@ -19,9 +19,9 @@ struct GroundConfig {
                                ///< what moves [m]; below 0: none
   double depth = 0.2;          ///< what is farther below a plane is not its ground [m]; 0: everything below is
   double max_step = 0.4;       ///< a plane this far above that of a neighbour is no ground [m]; 0: any step is
-  double around = 10;          ///< nor is one that, among the planes this far around [m] (0: none are looked at), is
-  double raised = 0.8;         ///< above a third, by more than this [m]
-  double rise = 0.05;          ///< and this share of the distance
+  double around = 15;          ///< nor is one that, among the planes this far around [m] (0: none are looked at), is
+  double raised = 0.8;         ///< above a third more than it is below, by more than this [m]
+  double rise = 0.02;          ///< and this share of the distance
 };
 
 /// The scan as a range image I of m x n pixels.
@@ -82,11 +82,20 @@ struct EvidenceConfig {
   int filled = 3;             ///< or so many looks must have seen something at its place; 1 to 7
 };
 
+/// What stands: where scans have hit something again and again over a long time, and rays have hardly crossed it, all
+/// cubes of an octant count as firm, however few scans have hit each.
+struct StandingConfig {
+  bool enabled = true;
+  int scans = 6;         ///< so many scans must have hit the octant,
+  int time = 15;         ///< the first so many scans ago,
+  double crossed = 0.5;  ///< and rays have crossed its cells in at most such a share of these (followed scans only)
+};
+
 /// Void: space that rays have crossed so often and so widely that what is hit in it moves.
 struct VoidConfig {
   bool enabled = true;
   double cell = 0.4;       ///< edge of a cell of free space [m]; taken as 2 or 4 cubes
-  double max_range = 50;   ///< rays are followed up to here [m]
+  double max_range = 60;   ///< rays are followed up to here [m]
   double surface = 0.2;    ///< d_s: this much of a ray's end is surface, not free [m]
   int interval = 3;        ///< the rays of one in so many scans are followed
   int tau_f = 2;           ///< so many of these scans must have crossed a cell since its last hit; 1 to 7
@@ -99,22 +108,23 @@ struct VoidConfig {
 /// Looking back: a cube that is new to the map, and that past scans saw through, holds something that has come.
 struct LookBackConfig {
   bool enabled = true;
-  int scans = 4;        ///< past scans that are asked
+  int scans = 5;        ///< past scans that are asked
   int stride = 12;      ///< scans from one of these to the next
   int seen = 1;         ///< at least so many must have seen through the cube
   int contrary = 1;     ///< and at most so many have seen something at its place
   double share = 0.85;  ///< of the cubes around, new and firm ones, so many must be new in this way,
   double least = 0.04;  ///< and so much [m^2]
-  int growth = 1;       ///< steps (cells of the void) from what has come to what belongs to it
+  int growth = 2;       ///< steps (cells of the void) from what has come to what belongs to it
 };
 
 /// Leftovers: where most of what was there has gone, the few cubes of it go that no scan can tell of.
 struct LeftoverConfig {
   bool enabled = true;
   double reach = 0.3;    ///< this far around the octant [m], taken as 1 to 4 cubes,
-  double least = 0.1;    ///< so much must have gone [m^2],
+  double least = 0.06;   ///< so much must have gone [m^2],
   double share = 0.6;    ///< and such a share of that and what is there:
   double others = 0.15;  ///< firm cubes count as 1, others as this
+  int interval = 16;     ///< looked for beside what goes at once, and everywhere in one of so many scans
 };
 
 /// The back end: keyframes that look at the map again when the sensor has moved on (Sec. III-D).
@@ -148,6 +158,7 @@ struct RemovalConfig {
   ContextConfig context;
   VisibilityConfig visibility;
   EvidenceConfig evidence;
+  StandingConfig standing;
   VoidConfig free_space;
   LookBackConfig look_back;
   LeftoverConfig leftovers;
