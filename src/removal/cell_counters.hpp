@@ -50,6 +50,16 @@ class Counters {
     return larger | equal;
   }
 
+  /// The cells that have counted to more here than in others.
+  std::uint64_t moreThan(const Counters& others) const {
+    std::uint64_t more = 0, equal = ~std::uint64_t{0};
+    for (std::size_t i = N; i-- > 0;) {
+      more |= equal & planes_[i] & ~others.planes_[i];
+      equal &= ~(planes_[i] ^ others.planes_[i]);
+    }
+    return more;
+  }
+
   /// Moves all cells down by so many places.
   void shift(int by) {
     for (std::uint64_t& plane : planes_) plane = shifted(plane, by);

@@ -96,7 +96,7 @@ bool MovingHits::isNew(const RegionMap& map, const ScanTrace& trace, const Regio
   return around.moving >= least_new_ && around.isMoving(config_.evidence.share);
 }
 
-/// Octant::appeared: what is new and was seen through by past scans.
+/// Octant::appeared: what is new, and seen through by more past scans than saw something there.
 void MovingHits::lookBack(const RegionMap& map, const ScanTrace& trace) {
   fresh_.clear();
   fresh_octants_.clear();
@@ -117,8 +117,7 @@ void MovingHits::lookBack(const RegionMap& map, const ScanTrace& trace) {
     }
   }
   for (std::size_t i = 0; i < fresh_.size(); ++i)
-    fresh_octants_[i]->appeared = answers_[i].seen.atLeast(static_cast<unsigned>(config_.look_back.seen)) &
-                                  ~answers_[i].contrary.atLeast(static_cast<unsigned>(config_.look_back.contrary) + 1);
+    fresh_octants_[i]->appeared = answers_[i].seen.moreThan(answers_[i].contrary);
 }
 
 /// Whether what a scan returned from an octant may have been left out as too near: it looks empty then.

@@ -86,10 +86,11 @@ ScanReport RhMap::Removal::process(const octomap::Pointcloud& points, const octo
   // What moves stays out. Beyond the paper
   RemovalResult result;
   std::span<const OcTreeKey> rejected_from;
-  if (insert && (config_.free_space.enabled || config_.look_back.enabled)) {
-    free_space_.observe(regions_, trace, context.view.origin());
-    if (config_.standing.enabled)
-      noteStanding(regions_, trace, free_space_, config_.standing, config_.free_space.interval);
+  const bool keeps_out = config_.free_space.enabled || config_.look_back.enabled;
+  if (insert && keeps_out) free_space_.observe(regions_, trace, context.view.origin());
+  if (insert && config_.standing.enabled)
+    noteStanding(regions_, trace, free_space_, config_.standing, config_.free_space.interval);
+  if (insert && keeps_out) {
     report.rejected = moving_hits_.reject(regions_, trace, free_space_, result.removed);
     rejected_from = moving_hits_.rejectedFrom();
     moving_hits_.remember(scan_, context);

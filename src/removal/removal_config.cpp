@@ -139,8 +139,6 @@ void validate(const RemovalConfig& c) {
   atLeast0("free_space.known", c.free_space.known);
   between(1, 64, "look_back.scans", c.look_back.scans, "between 1 and 64");
   atLeast1("look_back.stride", c.look_back.stride);
-  atLeast1("look_back.seen", c.look_back.seen);
-  atLeast0("look_back.contrary", c.look_back.contrary);
   share("look_back.share", c.look_back.share);
   atLeast0("look_back.least", c.look_back.least);
   atLeast0("look_back.growth", c.look_back.growth);

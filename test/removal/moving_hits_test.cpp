@@ -156,16 +156,16 @@ TEST(MovingHits, HaveComeOnlyIfEnoughIsNew) {
   }
 }
 
-TEST(MovingHits, HaveComeWhereOneScanSawThroughIfThatIsAskedFor) {
-  for (const int seen : {1, 2}) {
-    RemovalConfig config;
-    config.free_space.enabled = false;
-    config.look_back.stride = 3;
-    config.look_back.seen = seen;
-    Place place(config);
-    for (int i = 0; i < 5; ++i) place.scan(false);  // one scan remembered
-    EXPECT_EQ(place.scan(true) > 50, seen == 1);
-  }
+TEST(MovingHits, HaveComeWhereMorePastScansSawThroughThanSawSomething) {
+  RemovalConfig config;
+  config.free_space.enabled = false;
+  config.look_back.stride = 1;
+  config.look_back.scans = 5;
+  Place place(config);
+  for (int i = 0; i < 3; ++i) place.scan(false);
+  for (int i = 0; i < 3; ++i) EXPECT_GT(place.scan(true), 50U) << i;  // 3 against 0, 1 and 2
+  EXPECT_LT(place.scan(true), 10U);                                   // 2 against 3
+  EXPECT_GT(place.cubesOfBox(0.3, 1.3), 50);
 }
 
 TEST(MovingHits, HaveComeWherePastScansSkimmed) {

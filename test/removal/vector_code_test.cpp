@@ -124,8 +124,8 @@ TEST_P(VectorCode, RaysCrossTheCellsOfAmanatidesAndWoo) {
 
 TEST(Counters, CountAsSixtyFourCounters) {
   std::mt19937_64 random(5);
-  Counters<3> counters;
-  std::array<unsigned, 64> expected{};
+  Counters<3> counters, before;
+  std::array<unsigned, 64> expected{}, expected_before{};
   for (int i = 0; i < 300; ++i) {
     const std::uint64_t up = random() & random(), reset = random() & random() & random() & random();
     counters.reset(reset);
@@ -141,6 +141,9 @@ TEST(Counters, CountAsSixtyFourCounters) {
     }
     for (unsigned n = 0; n <= 9; ++n)
       for (std::size_t c = 0; c < 64; ++c) ASSERT_EQ(counters.atLeast(n) >> c & 1, expected[c] >= n) << n << ' ' << c;
+    for (std::size_t c = 0; c < 64; ++c)
+      ASSERT_EQ(counters.moreThan(before) >> c & 1, expected[c] > expected_before[c]) << c;
+    before = counters, expected_before = expected;
   }
 }
 

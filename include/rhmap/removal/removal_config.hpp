@@ -86,7 +86,7 @@ struct EvidenceConfig {
 /// cubes of an octant count as firm, however few scans have hit each.
 struct StandingConfig {
   bool enabled = true;
-  int scans = 6;         ///< so many scans must have hit the octant,
+  int scans = 5;         ///< so many scans must have hit the octant,
   int time = 15;         ///< the first so many scans ago,
   double crossed = 0.5;  ///< and rays have crossed its cells in at most such a share of these (followed scans only)
 };
@@ -95,7 +95,7 @@ struct StandingConfig {
 struct VoidConfig {
   bool enabled = true;
   double cell = 0.4;       ///< edge of a cell of free space [m]; taken as 2 or 4 cubes
-  double max_range = 60;   ///< rays are followed up to here [m]
+  double max_range = 70;   ///< rays are followed up to here [m]
   double surface = 0.2;    ///< d_s: this much of a ray's end is surface, not free [m]
   int interval = 3;        ///< the rays of one in so many scans are followed
   int tau_f = 2;           ///< so many of these scans must have crossed a cell since its last hit; 1 to 7
@@ -105,13 +105,12 @@ struct VoidConfig {
   int known = 3;           ///< what moves takes no cube along that more scans than this have hit
 };
 
-/// Looking back: a cube that is new to the map, and that past scans saw through, holds something that has come.
+/// Looking back: a cube that is new to the map holds something that has come if more past scans saw through it than saw
+/// something at its place.
 struct LookBackConfig {
   bool enabled = true;
   int scans = 5;        ///< past scans that are asked
   int stride = 12;      ///< scans from one of these to the next
-  int seen = 1;         ///< at least so many must have seen through the cube
-  int contrary = 1;     ///< and at most so many have seen something at its place
   double share = 0.85;  ///< of the cubes around, new and firm ones, so many must be new in this way,
   double least = 0.04;  ///< and so much [m^2]
   int growth = 2;       ///< steps (cells of the void) from what has come to what belongs to it
@@ -120,11 +119,11 @@ struct LookBackConfig {
 /// Leftovers: where most of what was there has gone, the few cubes of it go that no scan can tell of.
 struct LeftoverConfig {
   bool enabled = true;
-  double reach = 0.3;    ///< this far around the octant [m], taken as 1 to 4 cubes,
-  double least = 0.06;   ///< so much must have gone [m^2],
-  double share = 0.6;    ///< and such a share of that and what is there:
-  double others = 0.15;  ///< firm cubes count as 1, others as this
-  int interval = 16;     ///< looked for beside what goes at once, and everywhere in one of so many scans
+  double reach = 0.3;   ///< this far around the octant [m], taken as 1 to 4 cubes,
+  double least = 0.06;  ///< so much must have gone [m^2],
+  double share = 0.6;   ///< and such a share of that and what is there:
+  double others = 0.2;  ///< firm cubes count as 1, others as this
+  int interval = 16;    ///< looked for beside what goes at once, and everywhere in one of so many scans
 };
 
 /// The back end: keyframes that look at the map again when the sensor has moved on (Sec. III-D).
