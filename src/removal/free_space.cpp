@@ -41,7 +41,7 @@ void FreeSpace::Tile::moveTo(int z) {
 
 /// Around the sensor's cell, snapped to tiles.
 void FreeSpace::openWindow(const std::array<int, 3>& cell) {
-  const int radius = static_cast<int>(std::ceil(config_.max_range / (cube_ * (1 << shift_)))) + 2;
+  const int radius = static_cast<int>(std::ceil(config_.max_range / width())) + 2;
   const int x0 = (cell[0] - radius) & ~7, y0 = (cell[1] - radius) & ~7, z0 = (cell[2] - kBelow) & ~7;
   const int side = (2 * radius + 15) & ~7;
   for (CellGrid* grid : {&ends_, &hit_, &crossed_}) grid->reset(x0, y0, z0, side);
@@ -72,29 +72,27 @@ void FreeSpace::forEachTile(F&& visit) {
 }
 
 void FreeSpace::observe(const RegionMap& map, const ScanTrace& trace, const std::array<float, 3>& sensor) {
-  std::array<float, 3> from;
   std::array<int, 3> cell;
   for (std::size_t i = 0; i < 3; ++i) {
-    from[i] = (sensor[i] + 0.5F) / static_cast<float>(1 << shift_);
-    cell[i] = static_cast<int>(from[i]);
+    from_[i] = (sensor[i] + 0.5F) / static_cast<float>(1 << shift_);
+    cell[i] = static_cast<int>(from_[i]);
   }
   openWindow(cell);
   if (trace.scan % static_cast<std::uint32_t>(config_.interval) == 0) {
     VoidRays rays;
-    markHits(map, trace, from, &rays);
-    followRays(from, rays, hit_, crossed_);
+    markHits(map, trace, &rays);
+    followRays(from_, rays, hit_, crossed_);
     crossed_.closeGaps(hit_);
     update();
   } else {
-    markHits(map, trace, from, nullptr);
+    markHits(map, trace, nullptr);
     forgetHit();
   }
 }
 
 /// The hit cells, and one ray to each for those who want to follow them (not null).
-void FreeSpace::markHits(const RegionMap& map, const ScanTrace& trace, const std::array<float, 3>& from,
-                         VoidRays* rays) {
-  const auto cells_per_metre = static_cast<float>(1 / (cube_ * (1 << shift_)));
+void FreeSpace::markHits(const RegionMap& map, const ScanTrace& trace, VoidRays* rays) {
+  const auto cells_per_metre = static_cast<float>(1 / width());
   const float reach = static_cast<float>(config_.max_range) * cells_per_metre;
   const float surface = static_cast<float>(config_.surface) * cells_per_metre;
   trace.forEachHitOctant([&](const Region& region, std::size_t o, const Octant& octant) {
@@ -107,17 +105,17 @@ void FreeSpace::markHits(const RegionMap& map, const ScanTrace& trace, const std
       float squared = 0;
       for (unsigned i = 0; i < 3; ++i) {
         to[i] = (static_cast<float>(cube[i]) + 0.5F) / static_cast<float>(1 << shift_);
-        squared += (to[i] - from[i]) * (to[i] - from[i]);
+        squared += (to[i] - from_[i]) * (to[i] - from_[i]);
       }
       const float length = std::sqrt(squared);
       if (length > reach || length < 1) return;
       const float t = 1 - surface / length;  // with noise, the surface may be here
-      hit_.set(static_cast<int>(from[0] + t * (to[0] - from[0])), static_cast<int>(from[1] + t * (to[1] - from[1])),
-               static_cast<int>(from[2] + t * (to[2] - from[2])));
+      hit_.set(static_cast<int>(from_[0] + t * (to[0] - from_[0])), static_cast<int>(from_[1] + t * (to[1] - from_[1])),
+               static_cast<int>(from_[2] + t * (to[2] - from_[2])));
       if (rays == nullptr) return;
       float share = 1;
       if ((octant.ground & hit) != 0) {  // the last metres of a grazing ray run inside the ground's own cells
-        const float sine = std::max(std::fabs(to[2] - from[2]) / length, 1e-3F);
+        const float sine = std::max(std::fabs(to[2] - from_[2]) / length, 1e-3F);
         share = 1 - std::min(kLongestGraze, kGrazing / sine) * cells_per_metre / length;
       }
       if (share > 0) rays->push(to, share);

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <cstddef>
 #include <cstdint>
 #include <vector>
@@ -60,8 +61,14 @@ class FreeSpace {
   }
   /// The cells that the last scan has hit.
   const CellGrid& ends() const { return ends_; }
-  /// A cell is 2^shift cubes wide.
+  /// From the sensor to a column of cells, in cells.
+  float distance(int x, int y) const {
+    return std::hypot(static_cast<float>(x) + 0.5F - from_[0], static_cast<float>(y) + 0.5F - from_[1]);
+  }
+  /// A cell is 2^shift cubes wide,
   int shift() const { return shift_; }
+  /// and so many metres.
+  double width() const { return cube_ * (1 << shift_); }
 
   /// Forgets what is farther than this many cubes (along an axis) from a cube.
   void forgetBeyond(const OcTreeKey& centre, int distance);
@@ -99,7 +106,7 @@ class FreeSpace {
   void openWindow(const std::array<int, 3>& cell);
   template <class F>
   void forEachTile(F&& visit);
-  void markHits(const RegionMap& map, const ScanTrace& trace, const std::array<float, 3>& from, VoidRays* rays);
+  void markHits(const RegionMap& map, const ScanTrace& trace, VoidRays* rays);
   void fill(const CellGrid& cells);
   void forgetHit();
   void update();
@@ -107,12 +114,13 @@ class FreeSpace {
   VoidConfig config_;
   double cube_;
   int shift_;
-  CellGrid ends_;              // of the scan: where its points are
-  CellGrid hit_;               // and where with noise the surface may be
-  CellGrid crossed_;           // by its rays
-  CellGrid clear_, open_;      // and all of a cell's neighbours with it, or but for one side
-  CellGrid stayed_, filled_;   // cells that are ordinary again, and those around them
-  std::vector<Tile*> window_;  // those around the sensor, row by row; null where there is none
+  std::array<float, 3> from_{};  // the sensor, in cells
+  CellGrid ends_;                // of the scan: where its points are
+  CellGrid hit_;                 // and where with noise the surface may be
+  CellGrid crossed_;             // by its rays
+  CellGrid clear_, open_;        // and all of a cell's neighbours with it, or but for one side
+  CellGrid stayed_, filled_;     // cells that are ordinary again, and those around them
+  std::vector<Tile*> window_;    // those around the sensor, row by row; null where there is none
   BlockIndex<Tile> tiles_;
 };
 

@@ -50,7 +50,7 @@ std::size_t MovingHits::reject(const RegionMap& map, const ScanTrace& trace, con
   });
   if (in_void_.empty() && come_.empty()) return 0;
 
-  growSeeds(free_space.ends());
+  growSeeds(free_space);
   std::size_t rejected = 0;
   trace.forEachHitOctant([&](Region& region, std::size_t o, Octant& octant) {
     const OcTreeKey corner = map.cornerOf(region, o);
@@ -73,13 +73,19 @@ std::size_t MovingHits::reject(const RegionMap& map, const ScanTrace& trace, con
 }
 
 /// Growth within the scan: so many steps from each kind of seeds.
-void MovingHits::growSeeds(const CellGrid& ends) {
+void MovingHits::growSeeds(const FreeSpace& free_space) {
+  const CellGrid& ends = free_space.ends();
+  const auto near = static_cast<float>(config_.look_back.near / free_space.width());
+  const auto stepsOf = [&](const Cell& cell) {
+    const bool is_far = free_space.distance(cell.x, cell.y) > near;
+    return std::max(0, config_.look_back.growth - is_far);
+  };
   moving_.resetTo(ends);
   for (int steps = std::max(config_.free_space.growth, config_.look_back.growth);; --steps) {
     if (steps == config_.free_space.growth)
       for (const Cell& cell : in_void_) moving_.set(cell.x, cell.y, cell.z);
-    if (steps == config_.look_back.growth)
-      for (const Cell& cell : come_) moving_.set(cell.x, cell.y, cell.z);
+    for (const Cell& cell : come_)
+      if (steps == stepsOf(cell)) moving_.set(cell.x, cell.y, cell.z);
     if (steps == 0) return;
     grown_ = moving_.dilated(std::move(grown_));
     grown_.intersect(ends);

@@ -50,7 +50,7 @@ class MovingHits {
   bool isNew(const RegionMap& map, const ScanTrace& trace, const Region& region, std::size_t o) const;
   void lookBack(const RegionMap& map, const ScanTrace& trace);
   bool isTooNear(const SensorView& view, const OcTreeKey& corner) const;
-  void growSeeds(const CellGrid& ends);
+  void growSeeds(const FreeSpace& free_space);
 
   RemovalConfig config_;
   // In cubes.

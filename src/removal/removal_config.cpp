@@ -142,6 +142,7 @@ void validate(const RemovalConfig& c) {
   share("look_back.share", c.look_back.share);
   atLeast0("look_back.least", c.look_back.least);
   atLeast0("look_back.growth", c.look_back.growth);
+  atLeast0("look_back.near", c.look_back.near);
   length("leftovers.reach", c.leftovers.reach);
   atLeast0("leftovers.least", c.leftovers.least);
   share("leftovers.share", c.leftovers.share);

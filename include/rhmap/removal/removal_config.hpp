@@ -113,7 +113,8 @@ struct LookBackConfig {
   int stride = 12;      ///< scans from one of these to the next
   double share = 0.85;  ///< of the cubes around, new and firm ones, so many must be new in this way,
   double least = 0.04;  ///< and so much [m^2]
-  int growth = 2;       ///< steps (cells of the void) from what has come to what belongs to it
+  int growth = 2;       ///< steps (cells of the void) from what has come to what belongs to it,
+  double near = 30;     ///< up to here [m]; one step less of what is farther, where points are sparse
 };
 
 /// Leftovers: where most of what was there has gone, the few cubes of it go that no scan can tell of.
