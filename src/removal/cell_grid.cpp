@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "cell_grid.hpp"
 
+#include <bit>
+
 namespace rhmap {
 namespace {
 
@@ -43,6 +45,20 @@ CellGrid CellGrid::erodedToOneSide(CellGrid result) const {
               (along_y[x] & (along_y[x - 1] | along_y[x + 1]));
   }
   return result;
+}
+
+void CellGrid::growInto(const CellGrid& other, const Cell& from, std::vector<Cell>& grown) {
+  const int z = from.z - z0_;
+  if (z < 0 || z >= 64) return;
+  const std::uint64_t beside = std::uint64_t{1} << z, near = beside | beside << 1 | beside >> 1;
+  for (int y = std::max(0, from.y - y0_ - 1); y <= std::min(side_ - 1, from.y - y0_ + 1); ++y) {
+    for (int x = std::max(0, from.x - x0_ - 1); x <= std::min(side_ - 1, from.x - x0_ + 1); ++x) {
+      const std::uint64_t fresh = near & other.word(x, y) & ~word(x, y);
+      word(x, y) |= fresh;
+      for (std::uint64_t rest = fresh; rest != 0; rest &= rest - 1)
+        grown.push_back({x + x0_, y + y0_, std::countr_zero(rest) + z0_});
+    }
+  }
 }
 
 CellGrid CellGrid::dilated(CellGrid result) const {

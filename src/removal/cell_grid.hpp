@@ -8,6 +8,11 @@
 
 namespace rhmap {
 
+/// A cell by its place.
+struct Cell {
+  int x, y, z;
+};
+
 /// One bit for each cell of a window: a word of 64 cells in z for each of side x side places (x, y).
 class CellGrid {
  public:
@@ -56,10 +61,8 @@ class CellGrid {
     for (std::size_t i = 0; i < words_.size(); ++i) words_[i] |= words_[i] << 1 & words_[i] >> 1 & ~except.words_[i];
   }
 
-  /// Clears the cells that are not in another grid of the same window.
-  void intersect(const CellGrid& other) {
-    for (std::size_t i = 0; i < words_.size(); ++i) words_[i] &= other.words_[i];
-  }
+  /// Sets those of the 26 cells around one that are set in another grid of the same window, and appends the new ones.
+  void growInto(const CellGrid& other, const Cell& from, std::vector<Cell>& grown);
 
   bool empty() const {
     return std::all_of(words_.begin(), words_.end(), [](std::uint64_t word) { return word == 0; });

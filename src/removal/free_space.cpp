@@ -44,20 +44,23 @@ void FreeSpace::openWindow(const std::array<int, 3>& cell) {
   const int radius = static_cast<int>(std::ceil(config_.max_range / width())) + 2;
   const int x0 = (cell[0] - radius) & ~7, y0 = (cell[1] - radius) & ~7, z0 = (cell[2] - kBelow) & ~7;
   const int side = (2 * radius + 15) & ~7;
-  for (CellGrid* grid : {&ends_, &hit_, &crossed_}) grid->reset(x0, y0, z0, side);
+  const bool has_moved = x0 != ends_.x0() || y0 != ends_.y0() || side != ends_.side();
+  for (CellGrid* grid : {&ends_, &hit_}) grid->reset(x0, y0, z0, side);
+  if (!has_moved) return;
   window_.clear();
   for (int y = y0 >> 3; y < (y0 + side) >> 3; ++y)
     for (int x = x0 >> 3; x < (x0 + side) >> 3; ++x) window_.push_back(tiles_.find(nameOf(x, y)));
 }
 
-/// Visits the tiles for which the scan has something: visit(tile, x, y), with the tile's first column in the window.
-template <class F>
-void FreeSpace::forEachTile(F&& visit) {
+/// Visits the tiles for which one of some grids has something: visit(tile, x, y), with the tile's first column in the
+/// window.
+template <class F, class... Grids>
+void FreeSpace::forEachTile(F&& visit, const Grids&... grids) {
   std::size_t number = 0;
   for (int ty = 0; ty < ends_.side(); ty += 8) {
     for (int tx = 0; tx < ends_.side(); tx += 8, ++number) {
       std::uint64_t any = 0;
-      for (int i = 0; i < 64; ++i) any |= crossed_.word(tx + i % 8, ty + i / 8) | hit_.word(tx + i % 8, ty + i / 8);
+      for (int i = 0; i < 64; ++i) any |= (grids.word(tx + i % 8, ty + i / 8) | ...);
       if (any == 0) continue;
       Tile*& tile = window_[number];
       if (tile == nullptr) {
@@ -80,6 +83,7 @@ void FreeSpace::observe(const RegionMap& map, const ScanTrace& trace, const std:
   openWindow(cell);
   if (trace.scan % static_cast<std::uint32_t>(config_.interval) == 0) {
     VoidRays rays;
+    crossed_.resetTo(hit_);
     markHits(map, trace, &rays);
     followRays(from_, rays, hit_, crossed_);
     crossed_.closeGaps(hit_);
@@ -144,12 +148,14 @@ void FreeSpace::fill(const CellGrid& cells) {
 
 /// Where something is, the count of scans that have crossed begins again.
 void FreeSpace::forgetHit() {
-  forEachTile([&](Tile& tile, int tx, int ty) {
-    for (int i = 0; i < 64; ++i) {
-      const std::uint64_t hit = hit_.word(tx + i % 8, ty + i / 8);
-      if (hit != 0) tile.columns[static_cast<std::size_t>(i)].crossed.reset(hit);
-    }
-  });
+  forEachTile(
+      [&](Tile& tile, int tx, int ty) {
+        for (int i = 0; i < 64; ++i) {
+          const std::uint64_t hit = hit_.word(tx + i % 8, ty + i / 8);
+          if (hit != 0) tile.columns[static_cast<std::size_t>(i)].crossed.reset(hit);
+        }
+      },
+      hit_);
 }
 
 /// Takes the scan's cells into the tiles' counters, finds the void, and what has come to stay there: cells that are hit
@@ -158,25 +164,27 @@ void FreeSpace::update() {
   clear_ = crossed_.eroded(std::move(clear_));
   open_ = crossed_.erodedToOneSide(std::move(open_));
   stayed_.resetTo(ends_);
-  forEachTile([&](Tile& tile, int tx, int ty) {
-    for (int i = 0; i < 64; ++i) {
-      const int cx = tx + i % 8, cy = ty + i / 8;
-      CellColumn& column = tile.columns[static_cast<std::size_t>(i)];
-      if (const std::uint64_t ends = ends_.word(cx, cy); ends != 0) {
-        Counters<8>& hits = tile.hits[static_cast<std::size_t>(i)];
-        hits.reset(ends & column.crossed.atLeast(1));
-        hits.countUp(ends);
-        stayed_.word(cx, cy) =
-            ends & (column.is_void | column.is_open) & hits.atLeast(static_cast<unsigned>(config_.tau_r));
-      }
-      column.crossed.reset(hit_.word(cx, cy));
-      column.crossed.countUp(crossed_.word(cx, cy));
-      column.crossings.countUp(crossed_.word(cx, cy));
-      const std::uint64_t often = column.crossed.atLeast(static_cast<unsigned>(config_.tau_f));
-      column.is_void |= clear_.word(cx, cy) & often;
-      column.is_open |= open_.word(cx, cy) & often;
-    }
-  });
+  forEachTile(
+      [&](Tile& tile, int tx, int ty) {
+        for (int i = 0; i < 64; ++i) {
+          const int cx = tx + i % 8, cy = ty + i / 8;
+          CellColumn& column = tile.columns[static_cast<std::size_t>(i)];
+          if (const std::uint64_t ends = ends_.word(cx, cy); ends != 0) {
+            Counters<8>& hits = tile.hits[static_cast<std::size_t>(i)];
+            hits.reset(ends & column.crossed.atLeast(1));
+            hits.countUp(ends);
+            stayed_.word(cx, cy) =
+                ends & (column.is_void | column.is_open) & hits.atLeast(static_cast<unsigned>(config_.tau_r));
+          }
+          column.crossed.reset(hit_.word(cx, cy));
+          column.crossed.countUp(crossed_.word(cx, cy));
+          column.crossings.countUp(crossed_.word(cx, cy));
+          const std::uint64_t often = column.crossed.atLeast(static_cast<unsigned>(config_.tau_f));
+          column.is_void |= clear_.word(cx, cy) & often;
+          column.is_open |= open_.word(cx, cy) & often;
+        }
+      },
+      crossed_, hit_);
   fill(stayed_);
 }
 

@@ -54,7 +54,7 @@ class FreeSpace {
   bool isOpen(int x, int y, int z) const {
     return holds(x, y, z, [](const auto& column) { return column.is_open; });
   }
-  /// Whether rays have crossed the cell in at least so many followed scans (15 stand for more).
+  /// Whether rays have crossed the cell in at least so many followed scans (7 stand for more).
   bool isCrossed(int x, int y, int z, unsigned scans) const {
     scans = std::min(scans, kMostCrossings);
     return holds(x, y, z, [scans](const auto& column) { return column.crossings.atLeast(scans); });
@@ -76,14 +76,14 @@ class FreeSpace {
   std::size_t memoryUsage() const { return tiles_.memoryUsage() + tiles_.size() * sizeof(Tile); }
 
  private:
-  static constexpr unsigned kMostCrossings = Counters<4>::kMost;
+  static constexpr unsigned kMostCrossings = Counters<3>::kMost;
 
-  /// 64 cells above each other.
-  struct CellColumn {
+  /// 64 cells above each other. One line of the cache.
+  struct alignas(64) CellColumn {
     std::uint64_t is_void = 0;
     std::uint64_t is_open = 0;  // void but for one side
     Counters<3> crossed;        // followed scans since the last hit
-    Counters<4> crossings;      // followed scans, ever
+    Counters<3> crossings;      // followed scans, ever
   };
   /// 8 x 8 columns of cells; what is kept from scan to scan.
   struct Tile {
@@ -104,8 +104,8 @@ class FreeSpace {
     return (cellsOf(tile->columns[static_cast<std::size_t>((y & 7) * 8 + (x & 7))]) >> (z - tile->z0) & 1) != 0;
   }
   void openWindow(const std::array<int, 3>& cell);
-  template <class F>
-  void forEachTile(F&& visit);
+  template <class F, class... Grids>
+  void forEachTile(F&& visit, const Grids&... grids);
   void markHits(const RegionMap& map, const ScanTrace& trace, VoidRays* rays);
   void fill(const CellGrid& cells);
   void forgetHit();

@@ -174,7 +174,8 @@ void GroundEstimation::fit(const RegionMap& map, Region& region) const {
     forEachBit(region.octants[o].occupied, [&](int bit) { cubes[n++] = localCube(o, bit); });
   region.at_fit = static_cast<std::uint16_t>(n);
   const std::optional<Plane> plane = fitGround({cubes.data(), n}, config_, resolution_);
-  region.fitted = plane && !standsOut(map, region, *plane) && !isRaised(map, region, *plane);
+  const bool was_fitted = region.fitted;  // and so not raised: it takes longer to look around than to fit a plane
+  region.fitted = plane && !standsOut(map, region, *plane) && (was_fitted || !isRaised(map, region, *plane));
   if (plane) region.plane = *plane;
 }
 

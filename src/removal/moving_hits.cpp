@@ -81,15 +81,16 @@ void MovingHits::growSeeds(const FreeSpace& free_space) {
     return std::max(0, config_.look_back.growth - is_far);
   };
   moving_.resetTo(ends);
+  rim_.clear();
   for (int steps = std::max(config_.free_space.growth, config_.look_back.growth);; --steps) {
-    if (steps == config_.free_space.growth)
-      for (const Cell& cell : in_void_) moving_.set(cell.x, cell.y, cell.z);
+    if (steps == config_.free_space.growth) rim_.insert(rim_.end(), in_void_.begin(), in_void_.end());
     for (const Cell& cell : come_)
-      if (steps == stepsOf(cell)) moving_.set(cell.x, cell.y, cell.z);
+      if (steps == stepsOf(cell)) rim_.push_back(cell);
+    for (const Cell& cell : rim_) moving_.set(cell.x, cell.y, cell.z);
     if (steps == 0) return;
-    grown_ = moving_.dilated(std::move(grown_));
-    grown_.intersect(ends);
-    std::swap(moving_, grown_);
+    next_rim_.clear();
+    for (const Cell& cell : rim_) moving_.growInto(ends, cell, next_rim_);
+    std::swap(rim_, next_rim_);
   }
 }
 

@@ -43,10 +43,6 @@ class MovingHits {
     Counters<8> seen, contrary;
   };
 
-  struct Cell {
-    int x, y, z;
-  };
-
   bool isNew(const RegionMap& map, const ScanTrace& trace, const Region& region, std::size_t o) const;
   void lookBack(const RegionMap& map, const ScanTrace& trace);
   bool isTooNear(const SensorView& view, const OcTreeKey& corner) const;
@@ -62,7 +58,8 @@ class MovingHits {
 
   // For one scan, and kept for their memory.
   std::vector<Cell> in_void_, come_;  // seeds
-  CellGrid moving_, grown_;           // cells of what moves
+  CellGrid moving_;                   // cells of what moves
+  std::vector<Cell> rim_, next_rim_;  // of these, the last ones
   std::vector<CubesAt> fresh_;        // what is new to the map, and of each octant
   std::vector<Octant*> fresh_octants_;
   std::vector<CubeLooks> looks_;

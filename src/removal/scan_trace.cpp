@@ -139,7 +139,12 @@ ScanTrace traceScan(RegionMap& map, const ScanPoints& points, const OcTreeKey& s
     }
   }
   if (config.insert) {
-    trace.forEachRegion<true>([&](Region& region) {
+    const auto askFor = [](const Region& region, std::size_t o) __attribute__((always_inline)) {
+      __builtin_prefetch(region.column);
+      __builtin_prefetch(&region.counts[o].front());
+      __builtin_prefetch(&region.counts[o].back());
+    };
+    trace.forEachRegion(askFor, [&](Region& region) {
       forEachBit(region.hit_octants, [&](int o) { insert(region, static_cast<std::size_t>(o), config.firm); });
       raiseHeights(map, region);
     });

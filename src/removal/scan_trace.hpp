@@ -24,37 +24,42 @@ struct ScanTrace {
   std::vector<ScanColumn> columns;  ///< as far as contexts reach
   std::vector<Region*> regions;     ///< all with a hit
 
-  /// Visits the regions. They lie all over the memory: their hit octants, and if wanted their columns and counts, are
-  /// asked for some time before they are needed.
-  template <bool kCounts = false, class F>
-  void forEachRegion(F&& visit) const {
+  /// Visits the regions. They lie all over the memory: their hit octants, and what else askFor(region, octant) asks
+  /// for, are asked for some time before they are needed.
+  template <class AskFor, class F>
+  void forEachRegion(AskFor&& askFor, F&& visit) const {
     constexpr std::size_t kAhead = 6;
     for (std::size_t i = 0; i < regions.size(); ++i) {
       if (i + 2 * kAhead < regions.size()) __builtin_prefetch(regions[i + 2 * kAhead]);
       if (i + kAhead < regions.size()) {
         const Region& soon = *regions[i + kAhead];
-        if (kCounts) __builtin_prefetch(soon.column);
         forEachBit(soon.hit_octants, [&](int o) {
           const auto number = static_cast<std::size_t>(o);
           __builtin_prefetch(&soon.octants[number]);
-          if (!kCounts) return;
-          __builtin_prefetch(&soon.counts[number].front());
-          __builtin_prefetch(&soon.counts[number].back());
+          askFor(soon, number);
         });
       }
       visit(*regions[i]);
     }
   }
+  template <class F>
+  void forEachRegion(F&& visit) const {
+    forEachRegion([](const Region&, std::size_t) {}, visit);
+  }
 
   /// Visits the octants with a hit: visit(region, number, octant).
-  template <class F>
-  void forEachHitOctant(F&& visit) const {
-    forEachRegion([&](Region& region) {
+  template <class AskFor, class F>
+  void forEachHitOctant(AskFor&& askFor, F&& visit) const {
+    forEachRegion(askFor, [&](Region& region) {
       forEachBit(region.hit_octants, [&](int o) {
         const auto number = static_cast<std::size_t>(o);
         visit(region, number, region.octants[number]);
       });
     });
+  }
+  template <class F>
+  void forEachHitOctant(F&& visit) const {
+    forEachHitOctant([](const Region&, std::size_t) {}, visit);
   }
 };
 

@@ -6,7 +6,10 @@ namespace rhmap {
 void noteStanding(const RegionMap& map, const ScanTrace& trace, const FreeSpace& free_space,
                   const StandingConfig& config, int followed_interval) {
   const int shift = free_space.shift();
-  trace.forEachHitOctant([&](const Region& region, std::size_t o, Octant& octant) {
+  const auto askFor = [](const Region& region, std::size_t o) __attribute__((always_inline)) {
+    __builtin_prefetch(&region.past[o].first);
+  };
+  trace.forEachHitOctant(askFor, [&](const Region& region, std::size_t o, Octant& octant) {
     OctantPast& past = region.past[o];
     countUp(past.scans);
     if (past.first == 0) past.first = trace.scan;

@@ -3,8 +3,11 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <array>
+#include <cstdlib>
 #include <random>
+#include <vector>
 
 namespace rhmap {
 namespace {
@@ -100,11 +103,26 @@ TEST(CellGrid, ClosesGapsOfOneCellBetweenUpperAndLower) {
   EXPECT_GT(filled, 100);
 }
 
-TEST(CellGrid, IntersectsCellByCell) {
-  const CellGrid a = randomGrid(12, 50), b = randomGrid(13, 50);
-  CellGrid both = a;
-  both.intersect(b);
-  forEachCellOfTheWindow([&](int x, int y, int z) { ASSERT_EQ(both.at(x, y, z), a.at(x, y, z) && b.at(x, y, z)); });
+TEST(CellGrid, GrowsIntoWhatIsSetInAnother) {
+  const CellGrid other = randomGrid(12, 50);
+  CellGrid grid = randomGrid(13, 20);
+  for (const Cell from : {Cell{kX + 5, kY + 5, kZ + 30}, Cell{kX, kY + kSide - 1, kZ}, Cell{kX + 3, kY + 3, kZ + 63},
+                          Cell{kX + 5, kY + 5, kZ + 64}}) {
+    const CellGrid before = grid;
+    std::vector<Cell> grown;
+    grid.growInto(other, from, grown);
+    std::size_t fresh = 0;
+    forEachCellOfTheWindow([&](int x, int y, int z) {
+      const bool is_near = std::abs(x - from.x) <= 1 && std::abs(y - from.y) <= 1 && std::abs(z - from.z) <= 1;
+      const bool is_new = is_near && from.z < kZ + 64 && other.at(x, y, z) && !before.at(x, y, z);
+      ASSERT_EQ(grid.at(x, y, z), before.at(x, y, z) || is_new);
+      const auto is_this = [&](const Cell& cell) { return cell.x == x && cell.y == y && cell.z == z; };
+      ASSERT_EQ(std::count_if(grown.begin(), grown.end(), is_this), is_new);
+      fresh += is_new;
+    });
+    EXPECT_EQ(grown.size(), fresh);
+    EXPECT_EQ(fresh > 0, from.z < kZ + 64);
+  }
 }
 
 TEST(CellGrid, KnowsNothingOutsideOfItsWindow) {

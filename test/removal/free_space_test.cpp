@@ -39,7 +39,7 @@ class Hall {
   /// In how many followed scans rays have crossed a cell, as far as that is counted.
   unsigned crossings(double x, double y, double z) const {
     unsigned n = 0;
-    while (n < 15 && free_space_.isCrossed(cell(x), cell(y), cell(z), n + 1)) ++n;
+    while (n < 7 && free_space_.isCrossed(cell(x), cell(y), cell(z), n + 1)) ++n;
     return n;
   }
   FreeSpace& freeSpace() { return free_space_; }
@@ -105,8 +105,8 @@ TEST(FreeSpace, CountsAllScansWhoseRaysHaveCrossedACell) {
   EXPECT_EQ(hall.crossings(6.1, 0.5, 0), 0U);  // in a wall
   EXPECT_EQ(hall.crossings(200, 0, 0), 0U);
   for (int i = 0; i < 40; ++i) hall.scan();
-  EXPECT_EQ(hall.crossings(3, 0, 0), 15U);
-  EXPECT_TRUE(hall.freeSpace().isCrossed(kTreeMaxVal >> 2, kTreeMaxVal >> 2, kTreeMaxVal >> 2, 100));  // 15 are many
+  EXPECT_EQ(hall.crossings(3, 0, 0), 7U);
+  EXPECT_TRUE(hall.freeSpace().isCrossed(kTreeMaxVal >> 2, kTreeMaxVal >> 2, kTreeMaxVal >> 2, 100));  // 7 are many
 }
 
 TEST(FreeSpace, ComesBackWhenSomethingStays) {
