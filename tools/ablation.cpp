@@ -43,6 +43,7 @@ constexpr std::array kRows{
     Row{"default - looking everywhere", "default", [](RemovalConfig& config) { config.evidence.everywhere = false; }},
     Row{"default - neighbourhood", "default",
         [](RemovalConfig& config) { config.evidence.share = config.evidence.sure_share = 0; }},
+    Row{"default - what stands", "default", [](RemovalConfig& config) { config.standing.enabled = false; }},
     Row{"default - leftovers", "default", [](RemovalConfig& config) { config.leftovers.enabled = false; }},
     Row{"default - looking back", "default", [](RemovalConfig& config) { config.look_back.enabled = false; }},
     Row{"default - void", "default", [](RemovalConfig& config) { config.free_space.enabled = false; }},
