@@ -127,7 +127,7 @@ void validate(const RemovalConfig& c) {
   share("evidence.sure_share", c.evidence.sure_share);
   between(1, 255, "standing.scans", c.standing.scans, "between 1 and 255");
   atLeast0("standing.time", c.standing.time);
-  atLeast0("standing.crossed", c.standing.crossed);
+  between(0, 100, "standing.crossed", c.standing.crossed, "between 0 and 100");
   length("free_space.cell", c.free_space.cell);
   between(1e-6, 200, "free_space.max_range", c.free_space.max_range, "above 0 and up to 200 m");
   atLeast0("free_space.surface", c.free_space.surface);

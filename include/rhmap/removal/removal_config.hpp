@@ -88,7 +88,7 @@ struct StandingConfig {
   bool enabled = true;
   int scans = 5;         ///< so many scans must have hit the octant,
   int time = 15;         ///< the first so many scans ago,
-  double crossed = 0.5;  ///< and rays have crossed its cells in at most such a share of these (followed scans only)
+  double crossed = 0.5;  ///< and rays have crossed its cells in at most so many scans for each of these; up to 100
 };
 
 /// Void: space that rays have crossed so often and so widely that what is hit in it moves.
