@@ -15,12 +15,13 @@ using test::kCube;
 /// Scans of a hall with walls 6 m from the sensor in x and y, floor and ceiling 2 m from it.
 class Hall {
  public:
-  explicit Hall(const VoidConfig& config = {}) : free_space_(config, kCube) {}
+  explicit Hall(const VoidConfig& config = {}, int degrees_between_beams = 1)
+      : between_beams_(degrees_between_beams), free_space_(config, kCube) {}
 
-  /// With a post at (x, 0) between the floor and the ceiling, if x is above 0.
-  void scan(double post = 0) {
+  /// With a post at (x, 0) between the floor and the ceiling, if x is above 0. From so far above the middle [m].
+  void scan(double post = 0, double lift = 0) {
     octomap::Pointcloud cloud;
-    for (int i = 0; i < 90; ++i) {
+    for (int i = 0; i < 90; i += between_beams_) {
       for (int j = 0; j < 720; ++j) {
         const double elevation = (i - 44.5) * 3.14159 / 180, azimuth = j * 3.14159 / 360;
         const double x = std::cos(elevation) * std::cos(azimuth), y = std::cos(elevation) * std::sin(azimuth),
@@ -31,9 +32,9 @@ class Hall {
       }
     }
     const ScanTrace trace = traceScan(map_, test::scanOf(cloud), sensor_, ++scans_, {.resolution = kCube});
-    free_space_.observe(
-        map_, trace,
-        {static_cast<float>(kTreeMaxVal), static_cast<float>(kTreeMaxVal), static_cast<float>(kTreeMaxVal)});
+    free_space_.observe(map_, trace,
+                        {static_cast<float>(kTreeMaxVal), static_cast<float>(kTreeMaxVal),
+                         static_cast<float>(kTreeMaxVal + lift / kCube)});
   }
   bool isVoid(double x, double y, double z) const { return free_space_.isVoid(cell(x), cell(y), cell(z)); }
   /// In how many followed scans rays have crossed a cell, as far as that is counted.
@@ -47,6 +48,7 @@ class Hall {
  private:
   int cell(double v) const { return static_cast<int>(std::floor(v / kCube) + kTreeMaxVal) >> free_space_.shift(); }
 
+  int between_beams_;
   OcTreeKey sensor_{kTreeMaxVal, kTreeMaxVal, kTreeMaxVal};
   RegionMap map_ = test::emptyMap();
   FreeSpace free_space_;
@@ -107,6 +109,31 @@ TEST(FreeSpace, CountsAllScansWhoseRaysHaveCrossedACell) {
   for (int i = 0; i < 40; ++i) hall.scan();
   EXPECT_EQ(hall.crossings(3, 0, 0), 7U);
   EXPECT_TRUE(hall.freeSpace().isCrossed(kTreeMaxVal >> 2, kTreeMaxVal >> 2, kTreeMaxVal >> 2, 100));  // 7 are many
+}
+
+TEST(FreeSpace, MovesUpAndDownWithTheSensor) {
+  Hall hall({.interval = 1});
+  for (int i = 0; i < 5; ++i) hall.scan();
+  for (const double lift : {1.6, -1.6, 0.0}) {
+    hall.scan(0, lift);
+    EXPECT_TRUE(hall.isVoid(3, 0.5, 0)) << lift;
+    EXPECT_FALSE(hall.isVoid(3, 0.5, -2.5)) << lift;
+    EXPECT_GE(hall.crossings(3, 0.5, 0), 5U) << lift;
+    EXPECT_EQ(hall.crossings(3, 0.5, -2.5), 0U) << lift;
+  }
+}
+
+TEST(FreeSpace, HasNoGapsOfACellBetweenBeams) {
+  const auto isVoidAllTheWayUp = [](int degrees_between_beams) {
+    Hall hall({.interval = 1}, degrees_between_beams);
+    for (int i = 0; i < 3; ++i) hall.scan();
+    bool all = true;
+    for (double z = -1; z < 1; z += kCube) all = all && hall.isVoid(5, 0.5, z);
+    return all;
+  };
+  EXPECT_TRUE(isVoidAllTheWayUp(1));
+  EXPECT_TRUE(isVoidAllTheWayUp(6));    // 0.5 m apart
+  EXPECT_FALSE(isVoidAllTheWayUp(18));  // 1.6 m
 }
 
 TEST(FreeSpace, ComesBackWhenSomethingStays) {

@@ -182,19 +182,21 @@ TEST(MovingHits, HaveComeWherePastScansSkimmed) {
 }
 
 TEST(MovingHits, TakeAlongWhatIsSoManyStepsFromWhatHasCome) {
-  std::array<std::size_t, 3> rejected{};
-  for (int growth = 0; growth < 3; ++growth) {
+  const auto rejected = [](int growth, double near) {
     RemovalConfig config;
     config.free_space.enabled = false;
     config.look_back.stride = 3;
     config.look_back.growth = growth;
+    config.look_back.near = near;
     Place place(config);
     for (int i = 0; i < 6; ++i) place.scan(false, 0.0F);  // one half of the box's place was hidden
-    rejected[static_cast<std::size_t>(growth)] = place.scan(true);
-  }
-  EXPECT_GT(rejected[0], 50U);
-  EXPECT_LT(rejected[0], rejected[1]);
-  EXPECT_LT(rejected[1], rejected[2]);
+    return place.scan(true);
+  };
+  EXPECT_GT(rejected(0, 30), 50U);
+  EXPECT_LT(rejected(0, 30), rejected(1, 30));
+  EXPECT_LT(rejected(1, 30), rejected(2, 30));
+  EXPECT_EQ(rejected(2, 6), rejected(1, 30));  // the box is 8 m away
+  EXPECT_EQ(rejected(0, 6), rejected(0, 30));
 }
 
 TEST(MovingHits, AreNotFoundByLookingBackWhereReturnsWereTooNearToCount) {

@@ -68,6 +68,35 @@ TEST(RhMap, TakesLeftoversOfWhatItKeepsOut) {
   EXPECT_GT(gone[1] - gone[0], 0.025);  // 0.014 beside the cubes that the map had before alone
 }
 
+TEST(RhMap, TakesLeftoversAlsoInTurnAndAtTheEnd) {
+  std::array<double, 2> before{};
+  for (const bool often : {false, true}) {
+    RemovalConfig config;
+    config.leftovers.interval = often ? 1 : 1000000;
+    RhMap map(0.1, config);
+    for (const Scan& scan : street()) map.insertScan(scan.points, scan.pose);
+    before[often] = score(map, street()).second;
+    map.finish();
+    const double after = score(map, street()).second;
+    if (!often) {
+      EXPECT_GT(after, before[often]);
+    }
+  }
+  EXPECT_GT(before[true], before[false]);
+}
+
+TEST(RhMap, KeepsMoreOfWhatStands) {
+  std::array<double, 2> kept{};
+  for (const bool standing : {false, true}) {
+    RemovalConfig config;
+    config.standing.enabled = standing;
+    RhMap map(0.1, config);
+    insertAll(map, street());
+    kept[standing] = score(map, street()).first;
+  }
+  EXPECT_GT(kept[true], kept[false]);
+}
+
 TEST(RhMap, CleansAMapThatWasRead) {
   RhMap dirty(0.1, [] {
     RemovalConfig config = fastProfile();

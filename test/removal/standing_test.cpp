@@ -86,7 +86,7 @@ TEST(Standing, IsNothingThatRaysCross) {
   EXPECT_EQ(firm(0, 0), 8);
   EXPECT_EQ(firm(0, 1), 0);
   EXPECT_EQ(firm(100, 6), 8);
-  EXPECT_EQ(firm(100, 7), 0);    // more are not counted
+  EXPECT_EQ(firm(100, 7), 0);     // more are not counted
   EXPECT_EQ(firm(0.5, 6, 3), 0);  // two of these followed, which stand for six
   EXPECT_EQ(firm(0.75, 6, 3), 8);
 }
