@@ -73,6 +73,7 @@ TEST(RhMap, TakesLeftoversAlsoInTurnAndAtTheEnd) {
   for (const bool often : {false, true}) {
     RemovalConfig config;
     config.leftovers.interval = often ? 1 : 1000000;
+    config.back_end.enabled = false;
     RhMap map(0.1, config);
     for (const Scan& scan : street()) map.insertScan(scan.points, scan.pose);
     before[often] = score(map, street()).second;
