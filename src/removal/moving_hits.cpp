@@ -103,12 +103,13 @@ bool MovingHits::isNew(const RegionMap& map, const ScanTrace& trace, const Regio
   return around.moving >= least_new_ && around.isMoving(config_.evidence.share);
 }
 
-/// Octant::appeared: what is new, and seen through by more past scans than saw something there.
+/// Octant::appeared: what is new, not firm (where something stands), and seen through by more past scans than saw
+/// something there.
 void MovingHits::lookBack(const RegionMap& map, const ScanTrace& trace) {
   fresh_.clear();
   fresh_octants_.clear();
   trace.forEachHitOctant([&](Region& region, std::size_t o, Octant& octant) {
-    const std::uint64_t cubes = octant.fresh & ~octant.ground;
+    const std::uint64_t cubes = octant.fresh & ~octant.ground & ~octant.firm;
     if (cubes == 0) return;
     fresh_.push_back({map.cornerOf(region, o), cubes});
     fresh_octants_.push_back(&octant);
