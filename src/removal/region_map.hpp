@@ -50,10 +50,10 @@ using OctantCounts = std::array<CubeCounts, 64>;
 
 /// What else is remembered of an octant's cubes.
 struct OctantPast {
-  Counters<3> filled;       ///< looks that have seen something at a cube's place
-  std::uint64_t gone = 0;   ///< cubes that have been taken out of the map; some may be there again
-  std::uint32_t first = 0;  ///< the first scan that has hit the octant; 0: none
-  std::uint8_t scans = 0;   ///< scans that have hit it, up to 255
+  Counters<3> filled;                   ///< looks that have seen something at a cube's place
+  std::uint64_t gone = 0;               ///< cubes that have been taken out of the map; some may be there again
+  std::uint32_t first = 0;              ///< the first scan that has hit the octant; 0: none
+  std::array<std::uint8_t, 8> scans{};  ///< scans that have hit each of its cells of the void, up to 255
 };
 
 /// One more, up to 255.

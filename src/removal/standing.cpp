@@ -11,12 +11,18 @@ void noteStanding(const RegionMap& map, const ScanTrace& trace, const FreeSpace&
   };
   trace.forEachHitOctant(askFor, [&](const Region& region, std::size_t o, Octant& octant) {
     OctantPast& past = region.past[o];
-    countUp(past.scans);
     if (past.first == 0) past.first = trace.scan;
-    if (past.scans < config.scans || trace.scan - past.first < static_cast<std::uint32_t>(config.time)) return;
-    const auto many = static_cast<unsigned>(config.crossed * past.scans / followed_interval) + 1;
+    const OcTreeKey corner = map.cornerOf(region, o);
+    const auto scansOf = [&](const OcTreeKey& cell) -> std::uint8_t& {
+      return past.scans[static_cast<std::size_t>(bitOf(cell)) / 8];
+    };
+    forEachCell(octant.hit, corner, shift, [&](const OcTreeKey& cell, std::uint64_t) { countUp(scansOf(cell)); });
+    if (trace.scan - past.first < static_cast<std::uint32_t>(config.time)) return;
     const std::uint64_t cubes = octant.occupied & ~octant.firm & ~octant.doubted;
-    forEachCell(cubes, map.cornerOf(region, o), shift, [&](const OcTreeKey& cell, std::uint64_t in_cell) {
+    forEachCell(cubes, corner, shift, [&](const OcTreeKey& cell, std::uint64_t in_cell) {
+      const int scans = scansOf(cell);
+      if (scans < config.scans) return;
+      const auto many = static_cast<unsigned>(config.crossed * scans / followed_interval) + 1;
       if (!free_space.isCrossed(cell[0] >> shift, cell[1] >> shift, cell[2] >> shift, many)) octant.firm |= in_cell;
     });
   });

@@ -24,6 +24,8 @@ class World {
   void hit(int times = 1) {
     for (int i = 0; i < times; ++i) scan(cubeOf(octant_, next_++));
   }
+  /// The next hits are in another eighth of the octant.
+  void nextEighth() { next_ = (next_ + 7) / 8 * 8; }
   void cross(int times) {
     for (int i = 0; i < times; ++i) scan(cubeAt(130, 1, 1));
   }
@@ -89,6 +91,18 @@ TEST(Standing, IsNothingThatRaysCross) {
   EXPECT_EQ(firm(100, 7), 0);     // more are not counted
   EXPECT_EQ(firm(0.5, 6, 3), 0);  // two of these followed, which stand for six
   EXPECT_EQ(firm(0.75, 6, 3), 8);
+}
+
+TEST(Standing, IsToldCellByCellOfTheVoid) {
+  for (const bool small : {false, true}) {
+    World world({.scans = 4, .time = 0}, {.cell = small ? 0.2 : 0.4, .interval = 1});
+    world.hit(3);
+    world.nextEighth();
+    world.hit(3);
+    EXPECT_EQ(world.firmCubes(), small ? 0 : 6);
+    world.hit();
+    EXPECT_EQ(world.firmCubes(), small ? 4 : 7);
+  }
 }
 
 TEST(Standing, IsNoCubeThatIsDoubted) {

@@ -83,12 +83,12 @@ struct EvidenceConfig {
 };
 
 /// What stands: where scans have hit something again and again over a long time, and rays have hardly crossed it, all
-/// cubes of an octant count as firm, however few scans have hit each.
+/// cubes of a cell of the void count as firm, however few scans have hit each.
 struct StandingConfig {
   bool enabled = true;
-  int scans = 5;         ///< so many scans must have hit the octant,
-  int time = 15;         ///< the first so many scans ago,
-  double crossed = 0.5;  ///< and rays have crossed its cells in at most so many scans for each of these; up to 100
+  int scans = 5;         ///< so many scans must have hit the cell,
+  int time = 15;         ///< its octant the first time so many scans ago,
+  double crossed = 0.5;  ///< and rays have crossed it in at most so many scans for each of these; up to 100
 };
 
 /// Void: space that rays have crossed so often and so widely that what is hit in it moves.
