@@ -54,21 +54,20 @@ class FreeSpace {
   bool isOpen(int x, int y, int z) const {
     return holds(x, y, z, [](const auto& column) { return column.is_open; });
   }
-  /// Whether rays have crossed the cell in at least so many followed scans (7 stand for more).
-  bool isCrossed(int x, int y, int z, unsigned scans) const {
-    scans = std::min(scans, kMostCrossings);
-    return holds(x, y, z, [scans](const auto& column) { return column.crossings.atLeast(scans); });
+  /// Whether rays have crossed the cell in more than so many scans, as far as those tell that are followed (seven of
+  /// these stand for any number).
+  bool isCrossed(int x, int y, int z, double scans) const {
+    const unsigned followed = std::min(static_cast<unsigned>(scans / config_.interval) + 1, kMostCrossings);
+    return holds(x, y, z, [followed](const auto& column) { return column.crossings.atLeast(followed); });
   }
   /// The cells that the last scan has hit.
   const CellGrid& ends() const { return ends_; }
-  /// From the sensor to a column of cells, in cells.
-  float distance(int x, int y) const {
-    return std::hypot(static_cast<float>(x) + 0.5F - from_[0], static_cast<float>(y) + 0.5F - from_[1]);
+  /// From the sensor to the middle of a column of cells [m].
+  double distance(int x, int y) const {
+    return width() * std::hypot(static_cast<float>(x) + 0.5F - from_[0], static_cast<float>(y) + 0.5F - from_[1]);
   }
-  /// A cell is 2^shift cubes wide,
+  /// A cell is 2^shift cubes wide.
   int shift() const { return shift_; }
-  /// and so many metres.
-  double width() const { return cube_ * (1 << shift_); }
 
   /// Forgets what is farther than this many cubes (along an axis) from a cube.
   void forgetBeyond(const OcTreeKey& centre, int distance);
@@ -103,6 +102,8 @@ class FreeSpace {
     if (tile == nullptr || z < tile->z0 || z >= tile->z0 + 64) return false;
     return (cellsOf(tile->columns[static_cast<std::size_t>((y & 7) * 8 + (x & 7))]) >> (z - tile->z0) & 1) != 0;
   }
+  /// Of a cell [m].
+  double width() const { return cube_ * (1 << shift_); }
   void openWindow(const std::array<int, 3>& cell);
   template <class F, class... Grids>
   void forEachTile(F&& visit, const Grids&... grids);

@@ -27,8 +27,7 @@ std::size_t MovingHits::reject(const RegionMap& map, const ScanTrace& trace, con
 
   // Seeds: cells with hits in the void, or with cubes that have come.
   const int shift = free_space.shift();
-  in_void_.clear();
-  come_.clear();
+  seeds_.clear();
   trace.forEachHitOctant([&](const Region& region, std::size_t o, const Octant& octant) {
     std::uint64_t come = octant.appeared;
     if (come != 0) {
@@ -38,19 +37,20 @@ std::size_t MovingHits::reject(const RegionMap& map, const ScanTrace& trace, con
       if (around.moving < least_come_ || !around.isMoving(config_.look_back.share)) come = 0;
     }
     forEachCell(octant.hit, map.cornerOf(region, o), shift, [&](const OcTreeKey& corner, std::uint64_t hit) {
-      const int x = corner[0] >> shift, y = corner[1] >> shift, z = corner[2] >> shift;
+      const Cell cell{corner[0] >> shift, corner[1] >> shift, corner[2] >> shift};
+      const auto& [x, y, z] = cell;
       const bool is_void = config_.free_space.enabled && (hit & ~octant.ground) != 0 &&
                            (free_space.isVoid(x, y, z) || (free_space.isOpen(x, y, z) && isNew(map, trace, region, o)));
       if (is_void) {
-        in_void_.push_back({x, y, z});
+        seeds_.push_back({cell, config_.free_space.growth});
       } else if ((come & hit) != 0) {
-        come_.push_back({x, y, z});
+        seeds_.push_back({cell, stepsFrom(cell, free_space)});
       }
     });
   });
-  if (in_void_.empty() && come_.empty()) return 0;
+  if (seeds_.empty()) return 0;
 
-  growSeeds(free_space);
+  growSeeds(free_space.ends());
   std::size_t rejected = 0;
   trace.forEachHitOctant([&](Region& region, std::size_t o, Octant& octant) {
     const OcTreeKey corner = map.cornerOf(region, o);
@@ -72,20 +72,19 @@ std::size_t MovingHits::reject(const RegionMap& map, const ScanTrace& trace, con
   return rejected;
 }
 
-/// Growth within the scan: so many steps from each kind of seeds.
-void MovingHits::growSeeds(const FreeSpace& free_space) {
-  const CellGrid& ends = free_space.ends();
-  const auto near = static_cast<float>(config_.look_back.near / free_space.width());
-  const auto stepsOf = [&](const Cell& cell) {
-    const bool is_far = free_space.distance(cell.x, cell.y) > near;
-    return std::max(0, config_.look_back.growth - is_far);
-  };
+/// Growth of what has come: less of what is far away.
+int MovingHits::stepsFrom(const Cell& come, const FreeSpace& free_space) const {
+  const bool is_far = free_space.distance(come.x, come.y) > config_.look_back.near;
+  return std::max(0, config_.look_back.growth - is_far);
+}
+
+/// Growth within the scan: from each seed its steps.
+void MovingHits::growSeeds(const CellGrid& ends) {
   moving_.resetTo(ends);
   rim_.clear();
   for (int steps = std::max(config_.free_space.growth, config_.look_back.growth);; --steps) {
-    if (steps == config_.free_space.growth) rim_.insert(rim_.end(), in_void_.begin(), in_void_.end());
-    for (const Cell& cell : come_)
-      if (steps == stepsOf(cell)) rim_.push_back(cell);
+    for (const Seed& seed : seeds_)
+      if (seed.steps == steps) rim_.push_back(seed.cell);
     for (const Cell& cell : rim_) moving_.set(cell.x, cell.y, cell.z);
     if (steps == 0) return;
     next_rim_.clear();

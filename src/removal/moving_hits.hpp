@@ -38,6 +38,12 @@ class MovingHits {
     std::shared_ptr<const Visibility> visibility;
   };
 
+  /// A cell from which what moves grows, by so many steps.
+  struct Seed {
+    Cell cell;
+    int steps;
+  };
+
   /// What past scans say of an octant's new cubes: how many have seen through each, or something at its place.
   struct Answers {
     Counters<8> seen, contrary;
@@ -46,7 +52,8 @@ class MovingHits {
   bool isNew(const RegionMap& map, const ScanTrace& trace, const Region& region, std::size_t o) const;
   void lookBack(const RegionMap& map, const ScanTrace& trace);
   bool isTooNear(const SensorView& view, const OcTreeKey& corner) const;
-  void growSeeds(const FreeSpace& free_space);
+  int stepsFrom(const Cell& come, const FreeSpace& free_space) const;
+  void growSeeds(const CellGrid& ends);
 
   RemovalConfig config_;
   // In cubes.
@@ -57,7 +64,7 @@ class MovingHits {
   std::vector<OcTreeKey> rejected_from_;
 
   // For one scan, and kept for their memory.
-  std::vector<Cell> in_void_, come_;  // seeds
+  std::vector<Seed> seeds_;
   CellGrid moving_;                   // cells of what moves
   std::vector<Cell> rim_, next_rim_;  // of these, the last ones
   std::vector<CubesAt> fresh_;        // what is new to the map, and of each octant

@@ -88,8 +88,7 @@ ScanReport RhMap::Removal::process(const octomap::Pointcloud& points, const octo
   std::span<const OcTreeKey> rejected_from;
   const bool keeps_out = config_.free_space.enabled || config_.look_back.enabled;
   if (insert && keeps_out) free_space_.observe(regions_, trace, context.view.origin());
-  if (insert && config_.standing.enabled)
-    noteStanding(regions_, trace, free_space_, config_.standing, config_.free_space.interval);
+  if (insert && config_.standing.enabled) noteStanding(regions_, trace, free_space_, config_.standing);
   if (insert && keeps_out) {
     report.rejected = moving_hits_.reject(regions_, trace, free_space_, result.removed);
     rejected_from = moving_hits_.rejectedFrom();
@@ -124,7 +123,7 @@ ScanReport RhMap::Removal::finish() {
   StageClock clock(report);
   while (const auto keyframe = keyframes_.pop()) lookAgain(*keyframe, false, report);
   RemovalResult result;
-  clearUp({}, 1, {.scan = scan_, .protect = false, .revert_hits = 0, .everywhere = false}, result);
+  clearUp({}, 1, {.scan = scan_, .protect = false}, result);
   erase(result, report);
   clock.charge(Stage::kBackEnd);
   return report;

@@ -4,7 +4,7 @@
 namespace rhmap {
 
 void noteStanding(const RegionMap& map, const ScanTrace& trace, const FreeSpace& free_space,
-                  const StandingConfig& config, int followed_interval) {
+                  const StandingConfig& config) {
   const int shift = free_space.shift();
   const auto askFor = [](const Region& region, std::size_t o) __attribute__((always_inline)) {
     __builtin_prefetch(&region.past[o].first);
@@ -22,8 +22,8 @@ void noteStanding(const RegionMap& map, const ScanTrace& trace, const FreeSpace&
     forEachCell(cubes, corner, shift, [&](const OcTreeKey& cell, std::uint64_t in_cell) {
       const int scans = scansOf(cell);
       if (scans < config.scans) return;
-      const auto many = static_cast<unsigned>(config.crossed * scans / followed_interval) + 1;
-      if (!free_space.isCrossed(cell[0] >> shift, cell[1] >> shift, cell[2] >> shift, many)) octant.firm |= in_cell;
+      const double few = config.crossed * scans;
+      if (!free_space.isCrossed(cell[0] >> shift, cell[1] >> shift, cell[2] >> shift, few)) octant.firm |= in_cell;
     });
   });
 }

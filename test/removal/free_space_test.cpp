@@ -16,7 +16,7 @@ using test::kCube;
 class Hall {
  public:
   explicit Hall(const VoidConfig& config = {}, int degrees_between_beams = 1)
-      : between_beams_(degrees_between_beams), free_space_(config, kCube) {}
+      : interval_(config.interval), between_beams_(degrees_between_beams), free_space_(config, kCube) {}
 
   /// With a post at (x, 0) between the floor and the ceiling, if x is above 0. From so far above the middle [m].
   void scan(double post = 0, double lift = 0) {
@@ -40,7 +40,7 @@ class Hall {
   /// In how many followed scans rays have crossed a cell, as far as that is counted.
   unsigned crossings(double x, double y, double z) const {
     unsigned n = 0;
-    while (n < 7 && free_space_.isCrossed(cell(x), cell(y), cell(z), n + 1)) ++n;
+    while (n < 7 && free_space_.isCrossed(cell(x), cell(y), cell(z), interval_ * n)) ++n;
     return n;
   }
   FreeSpace& freeSpace() { return free_space_; }
@@ -48,7 +48,7 @@ class Hall {
  private:
   int cell(double v) const { return static_cast<int>(std::floor(v / kCube) + kTreeMaxVal) >> free_space_.shift(); }
 
-  int between_beams_;
+  int interval_, between_beams_;
   OcTreeKey sensor_{kTreeMaxVal, kTreeMaxVal, kTreeMaxVal};
   RegionMap map_ = test::emptyMap();
   FreeSpace free_space_;

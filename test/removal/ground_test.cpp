@@ -62,10 +62,7 @@ class Ground {
   explicit Ground(const GroundConfig& config = {}) : estimation_(config, kCube) {}
 
   void insert(const std::vector<OcTreeKey>& cubes) {
-    ScanPoints points;
-    points.cube = cubes;
-    for (auto* v : {&points.x, &points.y, &points.z, &points.range}) v->assign(cubes.size(), 1.0F);
-    estimation_.update(map_, traceScan(map_, points, cubeAt(0, 0, 0), ++scan_, {.resolution = kCube}));
+    estimation_.update(map_, traceScan(map_, test::pointsIn(cubes), cubeAt(0, 0, 0), ++scan_, {.resolution = kCube}));
   }
   static std::vector<OcTreeKey> plate(int x0, int x1, int z) {
     std::vector<OcTreeKey> cubes;

@@ -14,15 +14,9 @@ namespace {
 
 using test::emptyMap;
 using test::kCube;
+using test::pointsIn;
 
 using Cube = std::tuple<int, int, int>;
-
-ScanPoints pointsIn(const std::vector<OcTreeKey>& cubes) {
-  ScanPoints points;
-  points.cube = cubes;
-  for (auto* v : {&points.x, &points.y, &points.z, &points.range}) v->assign(cubes.size(), 1.0F);
-  return points;
-}
 
 class TracedRegionSizes : public testing::TestWithParam<int> {};
 INSTANTIATE_TEST_SUITE_P(Cubes, TracedRegionSizes, testing::Values(4, 8, 16));

@@ -67,6 +67,14 @@ class RandomCubes {
   std::uniform_int_distribution<int> near_;
 };
 
+/// A scan that hits these cubes, each a metre away as far as contexts are concerned.
+inline ScanPoints pointsIn(const std::vector<OcTreeKey>& cubes) {
+  ScanPoints points;
+  points.cube = cubes;
+  for (auto* v : {&points.x, &points.y, &points.z, &points.range}) v->assign(cubes.size(), 1.0F);
+  return points;
+}
+
 /// A scan from points in the sensor's frame; the sensor stands at the origin.
 inline ScanPoints scanOf(const octomap::Pointcloud& cloud, double min_range = 0) {
   ScanPoints points;

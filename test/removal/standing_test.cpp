@@ -18,7 +18,7 @@ using test::kCube;
 class World {
  public:
   explicit World(const StandingConfig& config, const VoidConfig& free_space = {.interval = 1})
-      : config_(config), interval_(free_space.interval), free_space_(free_space, kCube) {}
+      : config_(config), free_space_(free_space, kCube) {}
 
   /// Each time another cube of the octant.
   void hit(int times = 1) {
@@ -38,18 +38,14 @@ class World {
 
  private:
   void scan(const OcTreeKey& cube) {
-    octomap::Pointcloud cloud;
-    const auto middle = [](key_type k) { return static_cast<float>((k - kTreeMaxVal + 0.5) * kCube); };
-    cloud.push_back(middle(cube[0]), middle(cube[1]), middle(cube[2]));
-    const OcTreeKey sensor(kTreeMaxVal, kTreeMaxVal, kTreeMaxVal);
-    const ScanTrace trace = traceScan(map_, test::scanOf(cloud), sensor, ++scans_, {.resolution = kCube, .firm = 255});
+    const ScanTrace trace =
+        traceScan(map_, test::pointsIn({cube}), cubeAt(0, 0, 0), ++scans_, {.resolution = kCube, .firm = 255});
     const auto at = static_cast<float>(kTreeMaxVal);
     free_space_.observe(map_, trace, {at, at, at});
-    noteStanding(map_, trace, free_space_, config_, interval_);
+    noteStanding(map_, trace, free_space_, config_);
   }
 
   StandingConfig config_;
-  int interval_;
   OcTreeKey octant_ = cubeAt(100, 0, 0);
   RegionMap map_ = test::emptyMap();
   FreeSpace free_space_;
