@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <memory>
 #include <optional>
 #include <span>
@@ -24,21 +25,20 @@ bool isFinite(const point3d& p) { return std::isfinite(p.x()) && std::isfinite(p
 std::optional<std::pair<OcTreeKey, OcTreeKey>> reachOf(const KeySpace& keys, const octomap::Pointcloud& scan,
                                                        const point3d& origin, double max_range) {
   constexpr int kMargin = 8;  // cells: a ray may miss its end by a rounding, and leave the box by a cell
+  point3d low = origin, high = origin;
+  for (const point3d& p : scan) {
+    for (unsigned axis = 0; axis < 3; ++axis) {  // a NaN compares false
+      low(axis) = p(axis) < low(axis) ? p(axis) : low(axis);
+      high(axis) = p(axis) > high(axis) ? p(axis) : high(axis);
+    }
+  }
+  const double margin = kMargin * keys.resolution();
+  const auto reach = max_range < 0 ? std::numeric_limits<double>::infinity() : max_range;
   OcTreeKey min, max;
   for (unsigned axis = 0; axis < 3; ++axis) {
-    double low = origin(axis);
-    double high = low;
-    for (const point3d& p : scan) {  // a NaN compares false
-      low = p(axis) < low ? double(p(axis)) : low;
-      high = p(axis) > high ? double(p(axis)) : high;
-    }
-    if (max_range >= 0) {
-      low = std::max(low, origin(axis) - max_range);
-      high = std::min(high, origin(axis) + max_range);
-    }
-    const double margin = kMargin * keys.resolution();
-    if (!keys.coordToKeyChecked(low - margin, min[axis]) || !keys.coordToKeyChecked(high + margin, max[axis]))
-      return std::nullopt;
+    const double from = std::max<double>(low(axis), origin(axis) - reach) - margin;
+    const double to = std::min<double>(high(axis), origin(axis) + reach) + margin;
+    if (!keys.coordToKeyChecked(from, min[axis]) || !keys.coordToKeyChecked(to, max[axis])) return std::nullopt;
   }
   return std::pair(min, max);
 }
@@ -125,22 +125,28 @@ ScanMasks markScan(const KeySpace& keys, const octomap::Pointcloud& scan, const 
   const std::size_t threads =
       std::clamp(parts, std::size_t{1}, static_cast<std::size_t>(std::max(config.num_threads, 1)));
   const auto reach = reachOf(keys, scan, origin, config.max_range);
-  std::vector<Marker> markers;
-  markers.reserve(threads);
-  for (std::size_t i = 0; i < threads; ++i)
-    markers.emplace_back(keys, origin, config, reach ? ScanMasks(reach->first, reach->second) : ScanMasks());
-
+  std::vector<std::optional<Marker>> markers(threads);  // each made by its thread, whose memory it is in then
   forEachPart(parts, threads, [&](std::size_t part, std::size_t thread) {
-    markers[thread].add(points.subspan(part * kPart, std::min(kPart, points.size() - part * kPart)));
+    std::optional<Marker>& marker = markers[thread];
+    if (!marker) marker.emplace(keys, origin, config, reach ? ScanMasks(reach->first, reach->second) : ScanMasks());
+    marker->add(points.subspan(part * kPart, std::min(kPart, points.size() - part * kPart)));
   });
 
-  for (const Marker& marker : markers) {
-    counts.points += marker.counts().points;
-    counts.not_finite += marker.counts().not_finite;
-    counts.outside += marker.counts().outside;
+  ScanMasks masks;
+  bool is_first = true;
+  for (std::optional<Marker>& marker : markers) {
+    if (!marker) continue;
+    counts.points += marker->counts().points;
+    counts.not_finite += marker->counts().not_finite;
+    counts.outside += marker->counts().outside;
+    if (is_first) {
+      masks = std::move(marker->masks());
+    } else {
+      masks.merge(marker->masks());
+    }
+    is_first = false;
   }
-  for (std::size_t i = 1; i < threads; ++i) markers[0].masks().merge(markers[i].masks());
-  return std::move(markers[0].masks());
+  return masks;
 }
 
 ScanCells collectScan(const KeySpace& keys, const octomap::Pointcloud& scan, const point3d& origin,

@@ -8,11 +8,14 @@
 #include <exception>
 #include <nlohmann/json.hpp>
 #include <string>
+#include <string_view>
+#include <thread>
 #include <vector>
 
 #include "comparison.hpp"
 #include "processor_name.hpp"
 #include "rhmap/core/atomic_file.hpp"
+#include "threads.hpp"
 
 namespace rhmap::bench {
 namespace {
@@ -28,6 +31,7 @@ struct Options {
   std::vector<double> resolutions{0.2, 0.1};
   std::vector<std::string> maps;
   std::string json;
+  int threads = static_cast<int>(std::thread::hardware_concurrency());
   ComparisonConfig config;
 };
 
@@ -52,6 +56,14 @@ void print(const MemoryRow& row) {
   std::fflush(stdout);
 }
 
+void print(const ThreadsRow& row) {
+  fmt::print("{:<4} m  {:<54} {:>10} {:>10} a scan {:>7.2f}x{}\n", row.resolution,
+             fmt::format("insertPointCloud, 1 and {} threads, by the clock", row.threads), timeText(median(row.one)),
+             timeText(median(row.several)), median(row.one) / median(row.several),
+             row.same_answers ? "" : "  THE MAPS DIFFER");
+  std::fflush(stdout);
+}
+
 nlohmann::ordered_json toJson(const Row& row) {
   return {{"resolution", row.resolution},    {"name", row.title.name}, {"per", row.title.per},
           {"operations", row.operations},    {"octomap", row.octomap}, {"rhmap", row.rhmap},
@@ -66,6 +78,14 @@ nlohmann::ordered_json toJson(const MemoryRow& row) {
           {"same_answers", row.same_answers}};
 }
 
+nlohmann::ordered_json toJson(const ThreadsRow& row) {
+  return {{"resolution", row.resolution},
+          {"threads", row.threads},
+          {"one", row.one},
+          {"several", row.several},
+          {"same_answers", row.same_answers}};
+}
+
 /// True if both libraries gave the same answers everywhere.
 bool run(const Options& options) {
   nlohmann::ordered_json json{{"processor", processorName()},
@@ -75,7 +95,8 @@ bool run(const Options& options) {
                               {"rounds", options.config.rounds},
                               {"max_range", options.config.max_range},
                               {"benchmarks", nlohmann::ordered_json::array()},
-                              {"memory", nlohmann::ordered_json::array()}};
+                              {"memory", nlohmann::ordered_json::array()},
+                              {"threads", nlohmann::ordered_json::array()}};
   bool same_answers = true;
   const auto report = [&](const char* list) {
     return [&, list](const auto& row) {
@@ -85,6 +106,12 @@ bool run(const Options& options) {
     };
   };
   const std::vector<WorldScan> scans = loadScans(options.sequence, options.scans);
+  // These first: in a process that OctoMap has not used yet.
+  if (options.threads > 1 &&
+      std::string_view("insertPointCloud, threads").find(options.config.only) != std::string_view::npos)
+    for (const double resolution : options.resolutions)
+      report("threads")(
+          compareThreads(scans, resolution, options.threads, options.config.max_range, options.config.rounds));
   fmt::print("{:<62} {:>10} {:>10}\n", "", "OctoMap", "rhmap");
   for (const double resolution : options.resolutions)
     compare(scans, resolution, options.config, report("benchmarks"), report("memory"));
@@ -109,6 +136,9 @@ int parseAndRun(int argc, char** argv) {
       ->check(CLI::PositiveNumber)
       ->capture_default_str();
   app.add_option("--max-range", options.config.max_range, "rays are cut here [m]")->capture_default_str();
+  app.add_option("--threads", options.threads, "threads to insert scans by, beside one")
+      ->check(CLI::PositiveNumber)
+      ->capture_default_str();
   app.add_option("--only", options.config.only, "benchmarks with this in their name");
   app.add_option("--map", options.maps, ".bt files to measure the memory of")->check(CLI::ExistingFile);
   app.add_option("--json", options.json, "file for the raw results");

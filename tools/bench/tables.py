@@ -68,6 +68,25 @@ def memory_table(rows):
     return lines
 
 
+def threads_table(rows):
+    lines = [line(["insertPointCloud", "1 thread", "threads", "time", "ratio"]), line(["---"] + ["---:"] * 4)]
+    for row in rows:
+        one, several = statistics.median(row["one"]), statistics.median(row["several"])
+        mark = "" if row["same_answers"] else " (the maps differ)"
+        lines.append(
+            line(
+                [
+                    f"{row['resolution']} m",
+                    time_text(one),
+                    str(row["threads"]),
+                    time_text(several),
+                    ratio_text(one / several) + mark,
+                ]
+            )
+        )
+    return lines
+
+
 def line(cells):
     return "| " + " | ".join(cells) + " |"
 
@@ -82,6 +101,8 @@ def tables(results):
     text += time_table(results["benchmarks"])
     if results["memory"]:
         text += ["", "Resident memory of the map:", ""] + memory_table(results["memory"])
+    if results["threads"]:
+        text += ["", "A scan by several threads, by the clock on the wall:", ""] + threads_table(results["threads"])
     return "\n".join(text) + "\n"
 
 

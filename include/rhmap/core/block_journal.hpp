@@ -50,8 +50,8 @@ class BlockObserver {
 /// Notes which blocks of a store have changed, for any number of observers.
 ///
 /// A block carries the epoch in which it was last noted. An epoch ends when an observer takes its changes; within it a
-/// block is noted once, and every further change costs a comparison. While nobody observes, the epoch is 0, which is
-/// the stamp of a new block, too: nothing is ever noted.
+/// block is noted once, and every further change costs a comparison. While nobody observes, the epoch is 0, and nothing
+/// is ever noted.
 ///
 /// observe() and take() count as reading the map: several threads may call them at once. The rest counts as changing.
 class BlockJournal {
@@ -64,16 +64,15 @@ class BlockJournal {
     forEachObserver([](BlockObserver::Pending& pending) { pending.connected.store(false, std::memory_order_release); });
   }
 
-  /// Whether a block with this stamp needs no note().
-  bool isNoted(std::uint32_t stamp) const { return stamp == epoch_; }
+  /// Whether a block with this stamp needs no note(). A stamp is not read while nobody observes: the blocks of a scan
+  /// lie all over the memory. What it says then is too old to count later.
+  bool isNoted(const std::uint32_t& stamp) const { return epoch_ == 0 || stamp == epoch_; }
 
   /// Notes a block that is about to change. `blocks`: how many there are.
   void note(std::uint64_t key, std::uint32_t& stamp, std::size_t blocks) {
-    if (epoch_ != 0) {
-      log_.push_back(key);
-      if (log_.size() >= kLongLog) handOut(blocks);
-    }
+    log_.push_back(key);
     stamp = epoch_;
+    if (log_.size() >= kLongLog) handOut(blocks);
   }
 
   /// Notes that any block may have changed.

@@ -12,9 +12,10 @@
 namespace rhmap {
 
 /// Makes and removes nodes inside regions for one of several threads, each of which has regions of its own. What
-/// belongs to the whole store is not touched before BlockStore::takeOver().
+/// belongs to the whole store is not touched before BlockStore::takeOver(). It counts with every node: in a line of the
+/// cache that it shared with another thread's, both would wait at each.
 template <class NODE>
-class RegionEditor {
+class alignas(64) RegionEditor {
  public:
   RegionEditor(OctetPool<NODE>& pool, typename OctetPool<NODE>::Source& source) : pool_(&pool), source_(&source) {}
 

@@ -48,7 +48,7 @@ class ScanApplier {
   struct Region {
     const RegionMasks* marks;
     Block* block = nullptr;
-    bool changed = false;
+    NodeRef above{};          // the cell above it, once it has changed
     bool is_uniform = false;  // all of it is alike now, and becomes its parent
   };
 
@@ -106,14 +106,12 @@ class ScanApplier {
 
   /// Updates a region and the value of the cell above it, which is nobody else's.
   void finish(Region& region, RegionUpdate<NODE>& update) const {
-    region.changed = update.finish();
-    if (!region.changed || lazy_) return;
+    if (!update.finish()) return;
+    region.above = store_.parent({region.block, kTopSlot});
+    if (lazy_) return;
     region.is_uniform = structure::isUniform(store_, NodeRef{region.block, kTopOctet});
-    if (!region.is_uniform)
-      structure::recompute(*store_.node(cellAbove(region)), store_.octet(region.block, kTopOctet));
+    if (!region.is_uniform) structure::recompute(*store_.node(region.above), store_.octet(region.block, kTopOctet));
   }
-
-  NodeRef cellAbove(const Region& region) const { return store_.parent({region.block, kTopSlot}); }
 
   /// Asks for the nodes above the marked cells of a region (see BlockIndex::prefetch).
   [[gnu::always_inline]] static void prefetchAbove(const RegionEditor<NODE>& editor, const Block& region,
@@ -127,16 +125,15 @@ class ScanApplier {
   /// Prunes the regions that are all alike, and prunes or recomputes what lies above the changed ones.
   void close() {
     for (const Region& region : regions_) {
-      if (!region.changed) continue;
+      if (!region.above) continue;
       store_.touch(region.block);
       if (lazy_) continue;
-      const NodeRef cell = cellAbove(region);
       if (region.is_uniform) {
-        structure::collapse(store_, cell, NodeRef{region.block, kTopOctet});
+        structure::collapse(store_, region.above, NodeRef{region.block, kTopOctet});
       } else {
-        store_.touch(cell.block);
+        store_.touch(region.above.block);
       }
-      up_.add(cell);
+      up_.add(region.above);
     }
     if (!lazy_) up_.run();
   }

@@ -7,6 +7,7 @@
 #include <cstdint>
 #include <cstdlib>
 #include <memory>
+#include <span>
 #include <vector>
 
 #include "rhmap/core/block_index.hpp"
@@ -72,16 +73,27 @@ class ScanMasks {
 
   /// Adds what another thread has marked.
   void merge(const ScanMasks& other) {
-    other.forEachRegion([this](const RegionMasks& cells) { mark(cells); });
+    // They are in another processor's cache, and what they are added to may be anywhere: ask for both in good time.
+    constexpr std::size_t kAhead = 8;
+    other.forEachChunk([this](std::span<const RegionMasks> chunk) {
+      for (std::size_t i = 0; i < chunk.size(); ++i) {
+        if (i + 3 * kAhead < chunk.size()) prefetchMasks(chunk[i + 3 * kAhead]);
+        if (table_ != nullptr) {
+          if (i + 2 * kAhead < chunk.size()) __builtin_prefetch(&inTable(chunk[i + 2 * kAhead].region));
+          if (i + kAhead < chunk.size())
+            if (const RegionMasks* known = inTable(chunk[i + kAhead].region)) prefetchMasks(*known);
+        }
+        mark(chunk[i]);
+      }
+    });
   }
 
   /// Visits the regions in the order in which they were first marked.
   template <class F>
   void forEachRegion(F&& visit) const {
-    for (std::size_t c = 0; c < chunks_in_use_; ++c) {
-      const std::size_t n = c + 1 < chunks_in_use_ ? sizeOf(c) : used_;
-      for (std::size_t i = 0; i < n; ++i) visit(static_cast<const RegionMasks&>(chunks_[c][i]));
-    }
+    forEachChunk([&](std::span<const RegionMasks> regions) {
+      for (const RegionMasks& region : regions) visit(region);
+    });
   }
 
   /// Visits the keys of all cells: free ones (those that are not hit) as (key, false), hit ones as (key, true).
@@ -102,6 +114,18 @@ class ScanMasks {
   /// A small scan needs few; those of a large one are in large pages, because the marks of rays jump about in them.
   static constexpr std::size_t sizeOf(std::size_t chunk) {
     return chunk == 0 ? 256 : kLargePieceBytes / sizeof(RegionMasks);
+  }
+
+  template <class F>
+  void forEachChunk(F&& visit) const {
+    for (std::size_t c = 0; c < chunks_in_use_; ++c)
+      visit(std::span<const RegionMasks>(chunks_[c].get(), c + 1 < chunks_in_use_ ? sizeOf(c) : used_));
+  }
+
+  /// Asks for the memory of a region's masks, to write into (see BlockIndex::prefetch).
+  [[gnu::always_inline]] static void prefetchMasks(const RegionMasks& masks) {
+    for (std::size_t line = 0; line < sizeof masks; line += 64)
+      __builtin_prefetch(reinterpret_cast<const char*>(&masks) + line, 1);
   }
 
   static constexpr int kLargestTableBits = 22;
