@@ -13,7 +13,7 @@ template <class HALF>
 void startAxes(const KeySpace& keys, const point3d& origin, const point3d& direction, Ray& ray) {
   for (unsigned i = 0; i < 3; ++i) {
     const float d = direction(i);
-    ray.step[i] = d > 0.0F ? 1 : d < 0.0F ? -1 : 0;
+    ray.step[i] = int{d > 0.0F} - int{d < 0.0F};
     if (ray.step[i] == 0) {
       ray.t_max[i] = ray.t_delta[i] = std::numeric_limits<double>::max();
       continue;

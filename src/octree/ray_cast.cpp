@@ -60,13 +60,17 @@ void skipAhead(RayCast& ray, int bits, double limit) {
   const int last = (1 << bits) - 1;
   double until = limit;
   for (unsigned i = 0; i < 3; ++i) until = std::min(until, ray.t_max[i] + ray.t_delta[i] * (last - (at[i] & last)));
+  std::array<double, 3> steps, t = ray.t_max;
+  const std::array<double, 3> delta = ray.t_delta;
   for (unsigned i = 0; i < 3; ++i) {
-    const int steps = static_cast<int>(std::max(0.0, (until - ray.t_max[i]) / ray.t_delta[i]));
-    double t = ray.t_max[i];
-    for (int k = 0; k < steps; ++k) t += ray.t_delta[i];
-    ray.t_max[i] = t;
-    at[i] = static_cast<key_type>(at[i] + steps);
+    const int whole = static_cast<int>(std::max(0.0, (until - t[i]) / delta[i]));
+    at[i] = static_cast<key_type>(at[i] + whole);
+    steps[i] = whole;
   }
+  // All axes in one loop: how often each of three would run is hard to guess.
+  for (double k = 0, most = std::max({steps[0], steps[1], steps[2]}); k < most; ++k)
+    for (unsigned i = 0; i < 3; ++i) t[i] += k < steps[i] ? delta[i] : 0.0;
+  ray.t_max = t;
   ray.mirrored = cell_word::fromKey(at);
 }
 
@@ -74,7 +78,7 @@ void skipAhead(RayCast& ray, int bits, double limit) {
 
 RayCast::RayCast(const Ray& ray) : t_max(std::to_array(ray.t_max)), t_delta(std::to_array(ray.t_delta)) {
   for (int i = 0; i < 3; ++i)
-    if (ray.step[i] < 0) mirror |= cell_word::kAxis[i];
+    mirror |= ray.step[i] < 0 ? cell_word::kAxis[i] : 0;
   mirrored = cell_word::fromKey(ray.key) ^ mirror;
 }
 

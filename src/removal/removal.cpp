@@ -171,6 +171,7 @@ std::size_t RhMap::Removal::write(const ScanTrace& trace, const octomap::Pointcl
   if (config_.carve) markFree(points, pose);
   std::size_t inserted = 0;
   const std::size_t octants = std::min<std::size_t>(8, regions_.octants());
+  const bool are_whole = octants == 8 && !config_.carve;  // each of the tree's regions comes once
   trace.forEachRegion([&](const Region& region) {
     for (std::size_t first = 0; first < region.octants.size(); first += octants) {
       const std::uint64_t word = cell_word::fromKey(regions_.cornerOf(region, first));
@@ -185,7 +186,12 @@ std::size_t RhMap::Removal::write(const ScanTrace& trace, const octomap::Pointcl
         cubes += static_cast<std::size_t>(std::popcount(hit));
         if (has_free) forgetFree(regions_.cornerOf(region, number), hit & octant.fresh);
       });
-      if (cubes > 0) cells_.mark(hits);
+      if (cubes == 0) continue;
+      if (are_whole) {
+        cells_.append(hits);
+      } else {
+        cells_.mark(hits);
+      }
       inserted += cubes;
     }
   });

@@ -71,6 +71,8 @@ class BlockStore {
   }
   /// The same for a cell of this region.
   [[gnu::always_inline]] NODE* findNode(const Block& region, int cell) const {
+    // Where most searches go on: it comes while the masks are on their way, not after them.
+    __builtin_prefetch(&region.octet[static_cast<unsigned>(cell) >> 3]);
     const CellPlace place = placeOf(region, static_cast<unsigned>(cell));
     return place.exists() ? nodes_.nodes(region.octet[place.octet]) + place.child : nullptr;
   }

@@ -62,6 +62,9 @@ class ScanMasks {
   void markHit(const OcTreeKey& key) { markHit(cell_word::fromKey(key)); }
   void markHit(std::uint64_t cell) { at(cell >> 9).hit[cell >> 6 & 7] |= std::uint64_t{1} << (cell & 63); }
 
+  /// Marks cells of a region that has none yet and will get no others, which is quicker.
+  void append(const RegionMasks& cells) { create(cells.region) = cells; }
+
   /// Marks cells of a region.
   void mark(const RegionMasks& cells) {
     RegionMasks& to = at(cells.region);
