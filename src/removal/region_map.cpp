@@ -19,6 +19,13 @@ constexpr std::size_t aligned(std::size_t bytes) {
 
 constexpr std::size_t kRegionBytes = aligned(sizeof(Region));
 
+/// Of a region with so many octants and all that is kept of them. An odd number of lines of the cache: at a distance of
+/// a power of two, the first lines of all regions would share a few places in it.
+constexpr std::size_t recordBytes(std::size_t octants) {
+  const std::size_t bytes = octants * (sizeof(Octant) + sizeof(OctantCounts) + sizeof(OctantPast));
+  return (kRegionBytes + aligned(bytes)) | alignof(Octant);
+}
+
 }  // namespace
 
 void Region::remove(std::size_t octant, std::uint64_t old_cubes) {
@@ -37,9 +44,7 @@ void Region::remove(std::size_t octant, std::uint64_t old_cubes) {
 }
 
 RegionMap::RegionMap(int size, Reader read)
-    : bits_(std::countr_zero(static_cast<unsigned>(size))),
-      read_(std::move(read)),
-      pool_(kRegionBytes + aligned(octants() * (sizeof(Octant) + sizeof(OctantCounts) + sizeof(OctantPast)))) {}
+    : bits_(std::countr_zero(static_cast<unsigned>(size))), read_(std::move(read)), pool_(recordBytes(octants())) {}
 
 RegionMap::~RegionMap() {
   for (Column* column : in_order_) delete column;
