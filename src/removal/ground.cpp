@@ -78,10 +78,11 @@ GroundEstimation::GroundEstimation(const GroundConfig& config, double resolution
 
 void GroundEstimation::update(const RegionMap& map, const ScanTrace& trace) const {
   if (!config_.enabled) return;
-  for (const ScanColumn& scanned : trace.columns) {
-    Column& column = *scanned.column;
+  const auto columnAt = [&](std::size_t i) { return trace.columns[i].column; };
+  const auto all = [](const Column&) { return true; };
+  visitColumns(trace.columns.size(), columnAt, all, [&](Column& column) {
     Region* lowest = column.lowest();
-    if (lowest == nullptr) continue;
+    if (lowest == nullptr) return;
     bool anew = lowest != column.base;
     if (anew) setBase(column, lowest);
     if (lowest->scan == trace.scan && isCandidate(map, *lowest)) {
@@ -92,7 +93,7 @@ void GroundEstimation::update(const RegionMap& map, const ScanTrace& trace) cons
       if (region->z > lowest->z + 1) break;
       if (anew || (region->scan == trace.scan && region->hasFresh())) mark(map, column, *region, !anew);
     }
-  }
+  });
 }
 
 /// What was taken for ground before, while the ground was out of sight, was the top of something.

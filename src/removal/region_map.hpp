@@ -125,6 +125,27 @@ struct Column {
   }
 };
 
+/// Asks for a region's memory, but for its octants' (see BlockIndex::prefetch).
+[[gnu::always_inline]] inline void prefetchHead(const Region* region) {
+  for (std::size_t line = 0; line < sizeof(Region); line += 64)
+    __builtin_prefetch(reinterpret_cast<const char*>(region) + line);
+}
+
+/// Visits the columns columnAt(0) ... columnAt(n - 1) that are `due`. They lie all over the memory: asks for them,
+/// their lists and their regions some time before they are needed.
+template <class ColumnAt, class Due, class F>
+void visitColumns(std::size_t n, ColumnAt&& columnAt, Due&& due, F&& visit) {
+  constexpr std::size_t kAhead = 4;
+  const auto ahead = [&](std::size_t i) -> const Column* { return i < n && due(*columnAt(i)) ? columnAt(i) : nullptr; };
+  for (std::size_t i = 0; i < n; ++i) {
+    if (i + 3 * kAhead < n) __builtin_prefetch(columnAt(i + 3 * kAhead));
+    if (const Column* column = ahead(i + 2 * kAhead)) __builtin_prefetch(column->regions.data());
+    if (const Column* column = ahead(i + kAhead))
+      for (const Region* region : column->regions) prefetchHead(region);
+    if (due(*columnAt(i))) visit(*columnAt(i));
+  }
+}
+
 inline void Region::noteDoubts(std::size_t octant) {
   if (octants[octant].doubted != 0) doubtful = column->doubtful = true;
 }
@@ -201,23 +222,8 @@ class RegionMap {
   /// Those that are `due`, in the order in which they became known, which is much quicker than by hash.
   template <class Due, class F>
   void forEachColumn(Due&& due, F&& visit) const {
-    // They lie all over the memory: ask for them, their lists, their regions and the octants that may be looked at some
-    // time before they are needed.
-    constexpr std::size_t kAhead = 4;
-    const std::size_t n = in_order_.size();
-    const auto ahead = [&](std::size_t i) { return i < n && due(*in_order_[i]) ? in_order_[i] : nullptr; };
-    for (std::size_t i = 0; i < n; ++i) {
-      if (i + 3 * kAhead < n) __builtin_prefetch(in_order_[i + 3 * kAhead]);
-      if (const Column* column = ahead(i + 2 * kAhead)) __builtin_prefetch(column->regions.data());
-      if (const Column* column = ahead(i + kAhead))
-        for (const Region* region : column->regions) __builtin_prefetch(region);
-      if (const Column* column = ahead(i + kAhead / 2)) {
-        for (const Region* region : column->regions)
-          forEachBit(region->loose_octants,
-                     [&](int o) { __builtin_prefetch(&region->octants[static_cast<std::size_t>(o)]); });
-      }
-      if (due(*in_order_[i])) visit(*in_order_[i]);
-    }
+    const auto columnAt = [this](std::size_t i) { return in_order_[i]; };
+    visitColumns(in_order_.size(), columnAt, due, visit);
   }
   template <class F>
   void forEachColumn(F&& visit) const {

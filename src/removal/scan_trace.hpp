@@ -28,9 +28,9 @@ struct ScanTrace {
   /// for, are asked for some time before they are needed.
   template <class AskFor, class F>
   void forEachRegion(AskFor&& askFor, F&& visit) const {
-    constexpr std::size_t kAhead = 6;
+    constexpr std::size_t kAhead = 10;
     for (std::size_t i = 0; i < regions.size(); ++i) {
-      if (i + 2 * kAhead < regions.size()) __builtin_prefetch(regions[i + 2 * kAhead]);
+      if (i + 2 * kAhead < regions.size()) prefetchHead(regions[i + 2 * kAhead]);
       if (i + kAhead < regions.size()) {
         const Region& soon = *regions[i + kAhead];
         forEachBit(soon.hit_octants, [&](int o) {
