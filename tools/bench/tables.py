@@ -69,9 +69,10 @@ def memory_table(rows):
 
 
 def threads_table(rows):
-    lines = [line(["insertPointCloud", "1 thread", "threads", "time", "ratio"]), line(["---"] + ["---:"] * 4)]
+    head = ["insertPointCloud", "1 thread", "threads", "time", "ratio", "maps apart"]
+    lines = [line(head), line(["---"] + ["---:"] * 5)]
     for row in rows:
-        one, several = statistics.median(row["one"]), statistics.median(row["several"])
+        one, several, apart = (statistics.median(row[which]) for which in ("one", "several", "apart"))
         mark = "" if row["same_answers"] else " (the maps differ)"
         lines.append(
             line(
@@ -81,6 +82,7 @@ def threads_table(rows):
                     str(row["threads"]),
                     time_text(several),
                     ratio_text(one / several) + mark,
+                    ratio_text(one / apart),
                 ]
             )
         )
@@ -102,7 +104,7 @@ def tables(results):
     if results["memory"]:
         text += ["", "Resident memory of the map:", ""] + memory_table(results["memory"])
     if results["threads"]:
-        text += ["", "A scan by several threads, by the clock on the wall:", ""] + threads_table(results["threads"])
+        text += ["", "A scan by several threads, by the clock on the wall, and what as many threads reach with a map each:", ""] + threads_table(results["threads"])
     return "\n".join(text) + "\n"
 
 
