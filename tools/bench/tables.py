@@ -104,7 +104,8 @@ def tables(results):
     if results["memory"]:
         text += ["", "Resident memory of the map:", ""] + memory_table(results["memory"])
     if results["threads"]:
-        text += ["", "A scan by several threads, by the clock on the wall, and what as many threads reach with a map each:", ""] + threads_table(results["threads"])
+        title = "A scan by several threads, by the clock on the wall, and what as many threads reach with a map each:"
+        text += ["", title, ""] + threads_table(results["threads"])
     return "\n".join(text) + "\n"
 
 
