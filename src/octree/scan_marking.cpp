@@ -133,18 +133,12 @@ ScanMasks markScan(const KeySpace& keys, const octomap::Pointcloud& scan, const 
   });
 
   ScanMasks masks;
-  bool is_first = true;
   for (std::optional<Marker>& marker : markers) {
     if (!marker) continue;
     counts.points += marker->counts().points;
     counts.not_finite += marker->counts().not_finite;
     counts.outside += marker->counts().outside;
-    if (is_first) {
-      masks = std::move(marker->masks());
-    } else {
-      masks.merge(marker->masks());
-    }
-    is_first = false;
+    masks.merge(std::move(marker->masks()));
   }
   return masks;
 }

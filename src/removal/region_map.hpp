@@ -13,6 +13,7 @@
 #include "cell_counters.hpp"
 #include "rhmap/core/block_index.hpp"
 #include "rhmap/core/key.hpp"
+#include "rhmap/core/prefetch.hpp"
 #include "rhmap/core/record_pool.hpp"
 
 namespace rhmap {
@@ -125,12 +126,6 @@ struct Column {
   }
 };
 
-/// Asks for a region's memory, but for its octants' (see BlockIndex::prefetch).
-[[gnu::always_inline]] inline void prefetchHead(const Region* region) {
-  for (std::size_t line = 0; line < sizeof(Region); line += 64)
-    __builtin_prefetch(reinterpret_cast<const char*>(region) + line);
-}
-
 /// Visits the columns columnAt(0) ... columnAt(n - 1) that are `due`. They lie all over the memory: asks for them,
 /// their lists and their regions some time before they are needed.
 template <class ColumnAt, class Due, class F>
@@ -141,7 +136,7 @@ void visitColumns(std::size_t n, ColumnAt&& columnAt, Due&& due, F&& visit) {
     if (i + 3 * kAhead < n) __builtin_prefetch(columnAt(i + 3 * kAhead));
     if (const Column* column = ahead(i + 2 * kAhead)) __builtin_prefetch(column->regions.data());
     if (const Column* column = ahead(i + kAhead))
-      for (const Region* region : column->regions) prefetchHead(region);
+      for (const Region* region : column->regions) prefetchWhole(region);
     if (due(*columnAt(i))) visit(*columnAt(i));
   }
 }

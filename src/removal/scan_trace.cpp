@@ -124,7 +124,7 @@ ScanTrace traceScan(RegionMap& map, const ScanPoints& points, const OcTreeKey& s
       }
       region = map.find(runs[i].name);
       if (region == nullptr) region = &map.getOrCreate(runs[i].cube);
-      prefetchHead(region);
+      prefetchWhole(region);
     }
     for (std::size_t i = 0; i < n; ++i) __builtin_prefetch(&runs[i].region->octants[map.octantOf(runs[i].cube)]);
     for (std::size_t i = 0; i < n; ++i) {

@@ -30,7 +30,7 @@ struct ScanTrace {
   void forEachRegion(AskFor&& askFor, F&& visit) const {
     constexpr std::size_t kAhead = 10;
     for (std::size_t i = 0; i < regions.size(); ++i) {
-      if (i + 2 * kAhead < regions.size()) prefetchHead(regions[i + 2 * kAhead]);
+      if (i + 2 * kAhead < regions.size()) prefetchWhole(regions[i + 2 * kAhead]);
       if (i + kAhead < regions.size()) {
         const Region& soon = *regions[i + kAhead];
         forEachBit(soon.hit_octants, [&](int o) {

@@ -65,7 +65,7 @@ void readMap(Library& library, const std::filesystem::path& file) {
 
 void compare(std::span<const WorldScan> scans, double resolution, const ComparisonConfig& config,
              const std::function<void(const Row&)>& done, const std::function<void(const MemoryRow&)>& memory_done) {
-  const auto wanted = [&](const Title& title) { return title.name.find(config.only) != std::string_view::npos; };
+  const auto wanted = [&](const Title& title) { return config.wants(title.name); };
   if (std::ranges::none_of(scanTitles(), wanted) && std::ranges::none_of(mapTitles(), wanted)) return;
   Pair pair(resolution);
 

@@ -5,6 +5,7 @@
 #include <functional>
 #include <span>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "../statistics.hpp"
@@ -16,7 +17,9 @@ struct ComparisonConfig {
   double max_range = 50;          ///< of the scans' rays [m]
   std::size_t variant_scans = 3;  ///< scans of each scan benchmark but the first, which gets all
   std::size_t rounds = 3;         ///< runs of every map benchmark
-  std::string only;               ///< run the benchmarks with this in their name; the map is built anyway
+  std::string only;               ///< run the benchmarks with this in their name; the map is built for any of them
+
+  bool wants(std::string_view name) const { return name.find(only) != std::string_view::npos; }
 };
 
 /// A benchmark's measurements: one a scan or one a round, time per operation [s].

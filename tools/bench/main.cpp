@@ -8,7 +8,6 @@
 #include <exception>
 #include <nlohmann/json.hpp>
 #include <string>
-#include <string_view>
 #include <thread>
 #include <vector>
 
@@ -104,8 +103,7 @@ bool run(const Options& options) {
   };
   const std::vector<WorldScan> scans = loadScans(options.sequence, options.scans);
   // These first: in a process that OctoMap has not used yet.
-  if (options.threads > 1 &&
-      std::string_view("insertPointCloud, threads").find(options.config.only) != std::string_view::npos)
+  if (options.threads > 1 && options.config.wants("insertPointCloud, threads"))
     for (const double resolution : options.resolutions)
       report("threads")(
           compareThreads(scans, resolution, options.threads, options.config.max_range, options.config.rounds));

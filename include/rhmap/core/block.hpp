@@ -67,12 +67,6 @@ struct alignas(128) Block {
 };
 static_assert(sizeof(Block) == 384);
 
-/// Asks for a block's memory (see BlockIndex::prefetch).
-[[gnu::always_inline]] inline void prefetchBlock(const Block* block) {
-  for (std::size_t line = 0; line < sizeof(Block); line += 64)
-    __builtin_prefetch(reinterpret_cast<const char*>(block) + line);
-}
-
 /// The masks of eight octets, the first in the lowest byte.
 inline std::uint64_t masksFrom(const Block& block, int first_octet) {
   std::uint64_t word;

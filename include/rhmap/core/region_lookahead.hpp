@@ -5,6 +5,7 @@
 #include <cstdint>
 
 #include "rhmap/core/block_store.hpp"
+#include "rhmap/core/prefetch.hpp"
 
 namespace rhmap {
 
@@ -33,7 +34,7 @@ template <class NODE>
     for (int octet = 0; octet < kMiddleOctet; ++octet) __builtin_prefetch(store.octet(first, octet).nodes);
   }
   if (!next()) return;
-  if (const Block* second = region()) prefetchBlock(second);
+  if (const Block* second = region()) prefetchWhole(second);
   if (next()) store.prefetchRegion(above.block->cornerOf(cell));
 }
 

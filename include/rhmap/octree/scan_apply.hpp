@@ -7,6 +7,7 @@
 #include <span>
 #include <vector>
 
+#include "rhmap/core/prefetch.hpp"
 #include "rhmap/octree/parallel.hpp"
 #include "rhmap/octree/region_update.hpp"
 #include "rhmap/octree/scan_masks.hpp"
@@ -97,7 +98,7 @@ class ScanApplier {
   void updatePart(std::span<Region> regions, RegionEditor<NODE>& editor) const {
     RegionUpdate<NODE> update[] = {{editor, model_, lazy_}, {editor, model_, lazy_}};
     for (std::size_t i = 0; i <= regions.size(); ++i) {
-      if (i + 4 < regions.size()) prefetchBlock(regions[i + 4].block);
+      if (i + 4 < regions.size()) prefetchWhole(regions[i + 4].block);
       if (i + 2 < regions.size()) prefetchAbove(editor, *regions[i + 2].block, *regions[i + 2].marks);
       if (i < regions.size()) update[i % 2].begin(*regions[i].block, *regions[i].marks);
       if (i > 0) finish(regions[i - 1], update[1 - i % 2]);

@@ -8,12 +8,14 @@
 #include <cstdlib>
 #include <memory>
 #include <span>
+#include <utility>
 #include <vector>
 
 #include "rhmap/core/block_index.hpp"
 #include "rhmap/core/cell_word.hpp"
 #include "rhmap/core/key.hpp"
 #include "rhmap/core/large_piece.hpp"
+#include "rhmap/core/prefetch.hpp"
 
 namespace rhmap {
 
@@ -74,17 +76,21 @@ class ScanMasks {
     }
   }
 
-  /// Adds what another thread has marked.
-  void merge(const ScanMasks& other) {
+  /// Adds what another thread has marked, in a set for cells of the same box.
+  void merge(ScanMasks&& other) {
+    if (chunks_in_use_ == 0) {
+      *this = std::move(other);
+      return;
+    }
     // They are in another processor's cache, and what they are added to may be anywhere: ask for both in good time.
     constexpr std::size_t kAhead = 8;
     other.forEachChunk([this](std::span<const RegionMasks> chunk) {
       for (std::size_t i = 0; i < chunk.size(); ++i) {
-        if (i + 3 * kAhead < chunk.size()) prefetchMasks(chunk[i + 3 * kAhead]);
+        if (i + 3 * kAhead < chunk.size()) prefetchWhole(&chunk[i + 3 * kAhead]);
         if (table_ != nullptr) {
           if (i + 2 * kAhead < chunk.size()) __builtin_prefetch(&inTable(chunk[i + 2 * kAhead].region));
           if (i + kAhead < chunk.size())
-            if (const RegionMasks* known = inTable(chunk[i + kAhead].region)) prefetchMasks(*known);
+            if (const RegionMasks* known = inTable(chunk[i + kAhead].region)) prefetchWhole(known);
         }
         mark(chunk[i]);
       }
@@ -123,12 +129,6 @@ class ScanMasks {
   void forEachChunk(F&& visit) const {
     for (std::size_t c = 0; c < chunks_in_use_; ++c)
       visit(std::span<const RegionMasks>(chunks_[c].get(), c + 1 < chunks_in_use_ ? sizeOf(c) : used_));
-  }
-
-  /// Asks for the memory of a region's masks, to write into (see BlockIndex::prefetch).
-  [[gnu::always_inline]] static void prefetchMasks(const RegionMasks& masks) {
-    for (std::size_t line = 0; line < sizeof masks; line += 64)
-      __builtin_prefetch(reinterpret_cast<const char*>(&masks) + line, 1);
   }
 
   static constexpr int kLargestTableBits = 22;
