@@ -100,11 +100,9 @@ std::pair<int, int> RegionMap::heights(const Region& region) const {
     const std::uint64_t bits = region.octants[o].occupied;
     if (bits == 0) continue;
     const int corner = cornerOf(region, o)[2];
-    for (int z = 0; z < 4; ++z) {
-      if ((bits & layerOf(z)) == 0) continue;
-      low = std::min(low, corner + z);
-      high = std::max(high, corner + z);
-    }
+    const auto [bottom, top] = layersOf(bits);
+    low = std::min(low, corner + bottom);
+    high = std::max(high, corner + top);
   }
   return {low, high};
 }

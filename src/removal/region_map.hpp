@@ -259,5 +259,12 @@ inline OcTreeKey cubeOf(const OcTreeKey& corner, int bit) {
 inline constexpr std::uint64_t layerOf(int z) {
   return std::uint64_t{0x0f0f0f0f} << (4 * (z & 1)) << (32 * (z >> 1 & 1));
 }
+/// The lowest and the highest z of cubes of an octant of which there is one at least.
+inline std::pair<int, int> layersOf(std::uint64_t cubes) {
+  int low = 0, high = 3;
+  while ((cubes & layerOf(low)) == 0) ++low;
+  while ((cubes & layerOf(high)) == 0) --high;
+  return {low, high};
+}
 
 }  // namespace rhmap

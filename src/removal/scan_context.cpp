@@ -43,7 +43,7 @@ void findMaxRing(const RangeImage& image, const ScanPoints& points, const Region
     for (int i = 0; i < std::min(kMaxRingRows, image.projection().rows); ++i) {
       const std::int32_t k = image.pointAt(i, j);
       if (k < 0) continue;
-      const OcTreeKey& cube = points.cube[static_cast<std::size_t>(k)];
+      const OcTreeKey cube = points.cubeAt(static_cast<std::size_t>(k));
       if (ScanColumn* column = columnAt(trace, grid, cube[0] >> map.bits(), cube[1] >> map.bits()))
         column->max_ring = true;
       break;
@@ -63,7 +63,7 @@ std::vector<Context3d> findBulgeDented(const RangeImage& image, const ScanPoints
       const auto above = firstNearer(image, i, j, -1, std::max(static_cast<float>(config.r_1), share));
       const auto below = firstNearer(image, i, j, 1, std::max(static_cast<float>(config.r_2), share));
       if (!above && !below) continue;
-      const OcTreeKey& cube = points.cube[static_cast<std::size_t>(k)];
+      const OcTreeKey cube = points.cubeAt(static_cast<std::size_t>(k));
       const auto x = static_cast<key_type>(cube[0] >> bits), y = static_cast<key_type>(cube[1] >> bits),
                  z = static_cast<key_type>(cube[2] >> bits);
       if (ScanColumn* column = columnAt(trace, grid, x, y)) column->bulge_dented = true;
@@ -72,8 +72,8 @@ std::vector<Context3d> findBulgeDented(const RangeImage& image, const ScanPoints
           contexts.try_emplace({x, y, z}, Context3d{x, y, z, height, height, 1 << 16, -1}).first->second;
       context.z_min = std::min(context.z_min, height);
       context.z_max = std::max(context.z_max, height);
-      if (above) context.sup = std::min(context.sup, int{points.cube[*above][2]});
-      if (below) context.inf = std::max(context.inf, int{points.cube[*below][2]});
+      if (above) context.sup = std::min(context.sup, int{points.cubeAt(*above)[2]});
+      if (below) context.inf = std::max(context.inf, int{points.cubeAt(*below)[2]});
     }
   }
   std::vector<Context3d> result;

@@ -5,8 +5,10 @@
 #include <octomap/octomap_types.h>
 
 #include <cstddef>
+#include <cstdint>
 #include <vector>
 
+#include "rhmap/core/cell_word.hpp"
 #include "rhmap/octree/key_space.hpp"
 
 namespace rhmap {
@@ -15,11 +17,12 @@ namespace rhmap {
 struct ScanPoints {
   std::vector<float> x, y, z;  ///< sensor frame [m]
   std::vector<float> range;    ///< [m]
-  std::vector<OcTreeKey> cube;
+  std::vector<std::uint64_t> cell;  ///< the cubes, as cell_word names them
   std::size_t given = 0;
   std::size_t dropped = 0;  ///< not finite, outside of the tree, too near or too far
 
-  std::size_t size() const { return cube.size(); }
+  std::size_t size() const { return cell.size(); }
+  OcTreeKey cubeAt(std::size_t k) const { return cell_word::toKey(cell[k]); }
 };
 
 /// Takes a scan to the map: P^W = T P^B, and I = floor(P^W / s_c), Eq. (1), with octomap::pose6d's own arithmetic, so

@@ -12,11 +12,11 @@ constexpr std::size_t kAhead = 32;  // octants that are looked up together
 
 /// Points that follow each other in the scan and fall in one octant.
 struct Run {
-  OcTreeKey cube;                   // that of the first
-  std::uint64_t cubes = 0;          // of the octant
-  int z_min = 1 << 16, z_max = -1;  // of the points that contexts reach, in keys
-  int points = 0;
-  std::uint64_t name = 0;  // of the region
+  OcTreeKey cube;             // one of them
+  std::uint64_t cubes = 0;    // of the octant
+  std::uint64_t reached = 0;  // of these, with points that contexts reach
+  int points = 0;             // that contexts reach
+  std::uint64_t name = 0;     // of the region
   Region* region = nullptr;
 };
 
@@ -53,10 +53,9 @@ void raiseHeights(const RegionMap& map, const Region& region) {
     const auto number = static_cast<std::size_t>(o);
     const std::uint64_t fresh = region.octants[number].fresh;
     if (fresh == 0) return;
-    int bottom = map.cornerOf(region, number)[2], top = bottom + 3;
-    for (int z = 0; (fresh & layerOf(z)) == 0; ++z) ++bottom;
-    for (int z = 3; (fresh & layerOf(z)) == 0; --z) --top;
-    low = std::min(low, bottom), high = std::max(high, top);
+    const int corner = map.cornerOf(region, number)[2];
+    const auto [bottom, top] = layersOf(fresh);
+    low = std::min(low, corner + bottom), high = std::max(high, corner + top);
   });
   if (high < 0) return;
   Column& column = *region.column;
@@ -67,16 +66,15 @@ void raiseHeights(const RegionMap& map, const Region& region) {
 
 /// The next run of a scan, from point `k` on, which moves on.
 Run nextRun(const RegionMap& map, const ScanPoints& points, float reach, std::size_t& k) {
-  Run run{.cube = points.cube[k]};
-  for (; k < points.size(); ++k) {
-    const OcTreeKey& cube = points.cube[k];
-    if (((cube[0] ^ run.cube[0]) | (cube[1] ^ run.cube[1]) | (cube[2] ^ run.cube[2])) >> 2 != 0) break;
-    run.cubes |= maskOf(bitOf(cube));
-    if (!(points.range[k] <= reach)) continue;
-    run.z_min = std::min(run.z_min, int{cube[2]});
-    run.z_max = std::max(run.z_max, int{cube[2]});
-    ++run.points;
-  }
+  const std::uint64_t first = points.cell[k];
+  Run run{.cube = cell_word::toKey(first)};
+  do {
+    const std::uint64_t cube = maskOf(static_cast<int>(points.cell[k] & 63));
+    const bool is_reached = points.range[k] <= reach;
+    run.cubes |= cube;
+    run.reached |= is_reached ? cube : 0;
+    run.points += is_reached;
+  } while (++k < points.size() && (points.cell[k] ^ first) >> 6 == 0);
   run.name = map.nameOf(run.cube);
   return run;
 }
@@ -88,8 +86,10 @@ void addToColumn(Column& column, const Run& run, std::int32_t& index, ScanTrace&
     trace.columns.push_back({.column = &column});
   }
   ScanColumn& in = trace.columns[static_cast<std::size_t>(index)];
-  in.z_min = std::min(in.z_min, run.z_min);
-  in.z_max = std::max(in.z_max, run.z_max);
+  const int corner = run.cube[2] & ~3;
+  const auto [bottom, top] = layersOf(run.reached);
+  in.z_min = std::min(in.z_min, corner + bottom);
+  in.z_max = std::max(in.z_max, corner + top);
   in.points += run.points;
 }
 

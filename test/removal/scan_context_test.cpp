@@ -59,7 +59,7 @@ TEST(BulgeDented, PointsHaveANearerOneAboveOrBelow) {
       for (int other = 0; other < scene.image.projection().rows; ++other)
         nearer =
             nearer || scene.image.at(i, j) - scene.image.at(other, j) > std::max(1.0F, 0.02F * scene.image.at(i, j));
-      const OcTreeKey& cube = scene.points.cube[static_cast<std::size_t>(k)];
+      const OcTreeKey cube = scene.points.cubeAt(static_cast<std::size_t>(k));
       if (nearer) expected.insert({cube[0] >> 3, cube[1] >> 3, cube[2] >> 3});
     }
   }

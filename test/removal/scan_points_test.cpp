@@ -26,7 +26,7 @@ TEST(ScanPoints, FindTheCubesThatOctomapsTransformationFinds) {
     for (unsigned i = 0; i < cloud.size(); ++i) {
       OcTreeKey key;
       ASSERT_TRUE(keys.coordToKeyChecked(world[i], key));
-      ASSERT_EQ(scan.cube[i], key);
+      ASSERT_EQ(scan.cubeAt(i), key);
     }
   }
 }

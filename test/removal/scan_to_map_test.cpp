@@ -76,7 +76,7 @@ TEST(ScanToMapRemoval, TakesNothingThatTheScanHasHit) {
   look.ghost(10, 0);
   look.scan();
   const ScanPoints points = test::scanOf(test::wallAndGround(20, 64, 1440));
-  for (const OcTreeKey& cube : points.cube) ASSERT_TRUE(test::isOccupied(look.map(), cube));
+  for (std::size_t k = 0; k < points.size(); ++k) ASSERT_TRUE(test::isOccupied(look.map(), points.cubeAt(k)));
 }
 
 TEST(ScanToMapRemoval, LeavesWhatIsSafeGround) {

@@ -70,7 +70,7 @@ class RandomCubes {
 /// A scan that hits these cubes, each a metre away as far as contexts are concerned.
 inline ScanPoints pointsIn(const std::vector<OcTreeKey>& cubes) {
   ScanPoints points;
-  points.cube = cubes;
+  for (const OcTreeKey& cube : cubes) points.cell.push_back(cell_word::fromKey(cube));
   for (auto* v : {&points.x, &points.y, &points.z, &points.range}) v->assign(cubes.size(), 1.0F);
   return points;
 }

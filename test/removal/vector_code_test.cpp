@@ -65,7 +65,7 @@ TEST_P(VectorCode, PointsFallIntoOctomapsCubes) {
       OcTreeKey cube;
       if (!(range >= 5 && range <= 60) || !keys.coordToKeyChecked(pose.transform(p), cube)) continue;
       ASSERT_LT(k, scan.size());
-      ASSERT_EQ(scan.cube[k], cube);
+      ASSERT_EQ(scan.cubeAt(k), cube);
       ASSERT_EQ(scan.range[k], range);
       ASSERT_EQ(octomap::point3d(scan.x[k], scan.y[k], scan.z[k]), p);
       ++k;
