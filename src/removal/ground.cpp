@@ -203,8 +203,11 @@ void GroundEstimation::mark(const RegionMap& map, const Column& column, Region& 
     for (const auto& [dx, dy] : {std::pair(-1, 0), std::pair(1, 0), std::pair(0, -1), std::pair(0, 1)})
       consider(groundAt(map, region.x + dx, region.y + dy));
   }
-  region.loose_octants = 0;
-  for (std::size_t o = 0; o < region.octants.size(); ++o) {
+  if (only_fresh && n == 0) return;
+  const std::size_t octants = region.octants.size();
+  const auto all = ~std::uint64_t{0} >> (64 - octants);
+  forEachBit(only_fresh ? region.hit_octants : all, [&](int number) {
+    const auto o = static_cast<std::size_t>(number);
     Octant& octant = region.octants[o];
     const std::uint64_t which = only_fresh ? octant.fresh & octant.occupied : octant.occupied;
     std::uint64_t ground = 0, safe = 0;
@@ -221,8 +224,9 @@ void GroundEstimation::mark(const RegionMap& map, const Column& column, Region& 
     });
     octant.ground = (octant.ground & ~which) | ground;
     octant.safe = (octant.safe & ~which) | (ground & safe);
-    region.loose_octants |= std::uint64_t{(octant.occupied & ~octant.safe) != 0} << o;
-  }
+    const bool is_loose = (octant.occupied & ~octant.safe) != 0;
+    region.loose_octants = (region.loose_octants & ~maskOf(number)) | std::uint64_t{is_loose} << o;
+  });
 }
 
 }  // namespace rhmap
