@@ -43,10 +43,10 @@ std::optional<Plane> principalPlane(std::span<const LocalCube> cubes, const Grou
                .d = static_cast<float>(normal.dot(mean))};
 }
 
-/// The region that has the ground of a column; null if none is known.
-const Region* groundAt(const RegionMap& map, int x, int y) {
+/// A column of which the ground is known; null if that is not so.
+const Column* groundAt(const RegionMap& map, int x, int y) {
   const Column* column = map.find(x, y);
-  return column != nullptr && column->base != nullptr && column->base->fitted ? column->base : nullptr;
+  return column != nullptr && column->has_ground ? column : nullptr;
 }
 
 /// In cubes, of a plane in its region: in the middle, from the region's lowest cube.
@@ -85,8 +85,8 @@ void GroundEstimation::update(const RegionMap& map, const ScanTrace& trace) cons
     if (lowest == nullptr) return;
     bool anew = lowest != column.base;
     if (anew) setBase(column, lowest);
-    if (lowest->scan == trace.scan && isCandidate(map, *lowest)) {
-      fit(map, *lowest);
+    if (lowest->scan == trace.scan && isCandidate(map, column)) {
+      fit(map, column);
       anew = true;
     }
     for (Region* region : column.regions) {
@@ -99,8 +99,6 @@ void GroundEstimation::update(const RegionMap& map, const ScanTrace& trace) cons
 /// What was taken for ground before, while the ground was out of sight, was the top of something.
 void GroundEstimation::setBase(Column& column, Region* lowest) const {
   for (Region* region : column.regions) {
-    region->fitted = false;
-    region->at_fit = 0;
     region->loose_octants = 0;
     for (std::size_t o = 0; o < region->octants.size(); ++o) {
       Octant& octant = region->octants[o];
@@ -109,13 +107,17 @@ void GroundEstimation::setBase(Column& column, Region* lowest) const {
     }
   }
   column.base = lowest;
+  column.base_z = lowest->z;
+  column.has_ground = false;
+  column.at_fit = 0;
 }
 
 /// Eq. (4): the lowest region of its column; with cubes that no fit has seen yet, so that each region is fitted a few
 /// times only; and with occupied neighbours, as noise has none.
-bool GroundEstimation::isCandidate(const RegionMap& map, const Region& region) const {
+bool GroundEstimation::isCandidate(const RegionMap& map, const Column& column) const {
+  const Region& region = *column.base;
   const int cubes = region.cubes;
-  if (cubes < config_.min_cubes || cubes < region.at_fit * (1 + config_.min_growth)) return false;
+  if (cubes < config_.min_cubes || cubes < column.at_fit * (1 + config_.min_growth)) return false;
   for (int dx = -1; dx <= 1; ++dx) {
     for (int dy = -1; dy <= 1; ++dy) {
       const Column* beside = dx == 0 && dy == 0 ? nullptr : map.find(region.x + dx, region.y + dy);
@@ -128,16 +130,16 @@ bool GroundEstimation::isCandidate(const RegionMap& map, const Region& region) c
 }
 
 /// Ground has no steps up from all that is beside it: the roof of a car has, where the road is out of sight.
-bool GroundEstimation::standsOut(const RegionMap& map, const Region& region, const Plane& plane) const {
+bool GroundEstimation::standsOut(const RegionMap& map, const Column& column, const Plane& plane) const {
   if (config_.max_step <= 0) return false;
   const auto size = static_cast<float>(map.size()), half = size / 2;
   const float z = heightOf(plane, size);
   for (int dx = -1; dx <= 1; ++dx) {
     for (int dy = -1; dy <= 1; ++dy) {
-      const Region* base = dx == 0 && dy == 0 ? nullptr : groundAt(map, region.x + dx, region.y + dy);
-      if (base == nullptr) continue;
-      const float above = base->plane.above(half - static_cast<float>(dx) * size, half - static_cast<float>(dy) * size,
-                                            z + static_cast<float>(int{region.z} - int{base->z}) * size);
+      const Column* other = dx == 0 && dy == 0 ? nullptr : groundAt(map, column.x + dx, column.y + dy);
+      if (other == nullptr) continue;
+      const float above = other->ground.above(half - static_cast<float>(dx) * size, half - static_cast<float>(dy) * size,
+                                              z + static_cast<float>(int{column.base_z} - int{other->base_z}) * size);
       if (static_cast<double>(above) * resolution_ > config_.max_step) return true;
     }
   }
@@ -146,20 +148,21 @@ bool GroundEstimation::standsOut(const RegionMap& map, const Region& region, con
 
 /// Nor is it far above a third of what is ground around: what is seen over a row of cars is roofs and heads, in many
 /// columns beside each other. On a slope, as much is above it as below.
-bool GroundEstimation::isRaised(const RegionMap& map, const Region& region, const Plane& plane) const {
+bool GroundEstimation::isRaised(const RegionMap& map, const Column& column, const Plane& plane) const {
   if (config_.around <= 0) return false;
   constexpr int kEach = 2, kPlaces = (2 * kEach + 1) * (2 * kEach + 1) - 1;  // to all sides
   constexpr int kEnough = 2;                                                 // planes below
   const auto size = static_cast<float>(map.size());
   const double width = map.size() * resolution_;                                                   // [m]
   const auto apart = static_cast<int>(std::max(1L, std::lround(config_.around / kEach / width)));  // columns
-  const float z = heightOf(plane, size) + static_cast<float>(region.z) * size;
+  const float z = heightOf(plane, size) + static_cast<float>(column.base_z) * size;
   int below = 0, level = 0, above = 0;
   for (int i = -kEach; i <= kEach; ++i) {
     for (int j = -kEach; j <= kEach; ++j) {
-      const Region* base = i == 0 && j == 0 ? nullptr : groundAt(map, region.x + i * apart, region.y + j * apart);
-      if (base == nullptr) continue;
-      const double step = double{z - heightOf(base->plane, size) - static_cast<float>(base->z) * size} * resolution_;
+      const Column* other = i == 0 && j == 0 ? nullptr : groundAt(map, column.x + i * apart, column.y + j * apart);
+      if (other == nullptr) continue;
+      const double step =
+          double{z - heightOf(other->ground, size) - static_cast<float>(other->base_z) * size} * resolution_;
       const double least = config_.raised + config_.rise * width * apart * std::hypot(i, j);
       ++(step > least ? below : step < -least ? above : level);
       if (3 * level > 2 * kPlaces) return false;  // most often so
@@ -168,16 +171,16 @@ bool GroundEstimation::isRaised(const RegionMap& map, const Region& region, cons
   return below >= kEnough && 3 * (below - above) >= below + level + above;
 }
 
-void GroundEstimation::fit(const RegionMap& map, Region& region) const {
+void GroundEstimation::fit(const RegionMap& map, Column& column) const {
   std::array<LocalCube, 16 * 16 * 16> cubes;  // of the largest region
   std::size_t n = 0;
-  for (std::size_t o = 0; o < region.octants.size(); ++o)
-    forEachBit(region.octants[o].occupied, [&](int bit) { cubes[n++] = localCube(o, bit); });
-  region.at_fit = static_cast<std::uint16_t>(n);
+  for (std::size_t o = 0; o < column.base->octants.size(); ++o)
+    forEachBit(column.base->octants[o].occupied, [&](int bit) { cubes[n++] = localCube(o, bit); });
+  column.at_fit = static_cast<std::uint16_t>(n);
   const std::optional<Plane> plane = fitGround({cubes.data(), n}, config_, resolution_);
-  const bool was_fitted = region.fitted;  // and so not raised: it takes longer to look around than to fit a plane
-  region.fitted = plane && !standsOut(map, region, *plane) && (was_fitted || !isRaised(map, region, *plane));
-  if (plane) region.plane = *plane;
+  const bool had_ground = column.has_ground;  // and so not raised: it takes longer to look around than to fit a plane
+  column.has_ground = plane && !standsOut(map, column, *plane) && (had_ground || !isRaised(map, column, *plane));
+  if (plane) column.ground = *plane;
 }
 
 /// Eq. (5), for all cubes of the region and not only for those that the plane was fitted to: ground is thicker than a
@@ -191,15 +194,15 @@ void GroundEstimation::mark(const RegionMap& map, const Column& column, Region& 
   std::array<Near, 6> near;
   std::size_t n = 0;
   const auto size = static_cast<float>(map.size());
-  const auto consider = [&](const Region* other) {
-    if (other == nullptr || !other->fitted || std::abs(int{other->z} - int{region.z}) > 1) return;
-    near[n++] = {&other->plane, size * static_cast<float>(int{region.x} - int{other->x}),
+  const auto consider = [&](const Column* other) {
+    if (other == nullptr || !other->has_ground || std::abs(int{other->base_z} - int{region.z}) > 1) return;
+    near[n++] = {&other->ground, size * static_cast<float>(int{region.x} - int{other->x}),
                  size * static_cast<float>(int{region.y} - int{other->y}),
-                 size * static_cast<float>(int{region.z} - int{other->z})};
+                 size * static_cast<float>(int{region.z} - int{other->base_z})};
   };
   const bool is_base = &region == column.base;
-  if (is_base || config_.across_regions) consider(column.base);
-  if (config_.across_regions && !(is_base && region.fitted)) {
+  if (is_base || config_.across_regions) consider(&column);
+  if (config_.across_regions && !(is_base && column.has_ground)) {
     for (const auto& [dx, dy] : {std::pair(-1, 0), std::pair(1, 0), std::pair(0, -1), std::pair(0, 1)})
       consider(groundAt(map, region.x + dx, region.y + dy));
   }

@@ -30,10 +30,10 @@ class GroundEstimation {
 
  private:
   void setBase(Column& column, Region* lowest) const;
-  bool isCandidate(const RegionMap& map, const Region& region) const;
-  bool standsOut(const RegionMap& map, const Region& region, const Plane& plane) const;
-  bool isRaised(const RegionMap& map, const Region& region, const Plane& plane) const;
-  void fit(const RegionMap& map, Region& region) const;
+  bool isCandidate(const RegionMap& map, const Column& column) const;
+  bool standsOut(const RegionMap& map, const Column& column, const Plane& plane) const;
+  bool isRaised(const RegionMap& map, const Column& column, const Plane& plane) const;
+  void fit(const RegionMap& map, Column& column) const;
   void mark(const RegionMap& map, const Column& column, Region& region, bool only_fresh) const;
 
   GroundConfig config_;

@@ -62,7 +62,6 @@ Region* RegionMap::makeRegion(Column& column, key_type z) {
   return new (memory) Region{.x = column.x,
                              .y = column.y,
                              .z = z,
-                             .plane = {},
                              .column = &column,
                              .octants = {first_octant, octants()},
                              .counts = {first_counts, octants()},
@@ -71,7 +70,7 @@ Region* RegionMap::makeRegion(Column& column, key_type z) {
 
 Column& RegionMap::getOrCreate(key_type x, key_type y) {
   if (Column* known = find(x, y)) return *known;
-  auto* column = new Column{.x = x, .y = y, .regions = {}};
+  auto* column = new Column{.x = x, .y = y, .regions = {}, .ground = {}};
   columns_.insert(nameOf(x, y), column);
   in_order_.push_back(column);
   for (const auto& [corner, cubes] :
@@ -110,12 +109,10 @@ std::pair<int, int> RegionMap::heights(const Region& region) const {
 void RegionMap::refreshHeights(Column& column) const {
   if (!column.stale) return;
   column.stale = false;
-  column.h_min = 0, column.h_max = -1;
-  for (const auto& region : column.regions) {
+  column.h_min = Column().h_min, column.h_max = Column().h_max;
+  for (const Region* region : column.regions) {
     const auto [low, high] = heights(*region);
-    if (low > high) continue;
-    if (column.h_max < column.h_min) column.h_min = low;
-    column.h_max = high;
+    if (low <= high) column.raise(low, high);
   }
 }
 

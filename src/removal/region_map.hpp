@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <bit>
 #include <cstddef>
@@ -78,10 +79,7 @@ struct Region {
   key_type x = 0, y = 0, z = 0;  ///< I_r >> bits
   std::uint32_t scan = 0;        ///< the last scan that hit it
   std::uint16_t cubes = 0;       ///< in the map
-  std::uint16_t at_fit = 0;      ///< cubes at the last try to fit a plane
-  bool fitted = false;           ///< `plane` is the ground's
   bool doubtful = false;         ///< there may be cubes that are doubted
-  Plane plane;
   std::uint64_t hit_octants = 0;    ///< those that the scan has hit
   std::uint64_t loose_octants = 0;  ///< those that may have cubes that are not safe
   Column* column = nullptr;         ///< the one that it stands in
@@ -108,16 +106,26 @@ struct Region {
   void remove(std::size_t octant, std::uint64_t old_cubes);
 };
 
-/// The regions above each other at one O_r, and H{max,min}(O_r).
-struct Column {
-  key_type x = 0, y = 0;         ///< O_r >> bits
-  int h_min = 0, h_max = -1;     ///< keys of the lowest and the highest cube; none: max < min
-  bool doubtful = false;         ///< so may one of its regions be
-  bool stale = false;            ///< cubes were removed since h_min and h_max were computed
-  bool thinned = false;          ///< cubes were removed
-  Region* base = nullptr;        ///< where R-GPE looks for ground: the lowest region with a cube
-  std::vector<Region*> regions;  ///< by z, ascending
+/// The regions above each other at one O_r, and H{max,min}(O_r). One line of the cache but for the list: who looks at
+/// the ground around looks at many.
+struct alignas(64) Column {
+  key_type x = 0, y = 0;              ///< O_r >> bits
+  key_type h_min = 0xffff, h_max = 0; ///< keys of the lowest and the highest cube; none: max < min
+  bool doubtful = false;              ///< so may one of its regions be
+  bool stale = false;                 ///< cubes were removed since h_min and h_max were computed
+  bool thinned = false;               ///< cubes were removed
+  bool has_ground = false;            ///< `ground` is the ground's, in its base
+  key_type base_z = 0;                ///< that of `base`
+  std::uint16_t at_fit = 0;           ///< cubes of the base at the last try to fit a plane
+  Region* base = nullptr;             ///< where R-GPE looks for ground: the lowest region with a cube
+  std::vector<Region*> regions;       ///< by z, ascending
+  Plane ground;
 
+  /// With cubes from one height to another.
+  void raise(int low, int high) {
+    h_min = static_cast<key_type>(std::min<int>(h_min, low));
+    h_max = static_cast<key_type>(std::max<int>(h_max, high));
+  }
   /// The lowest region that holds a cube; null if none does.
   Region* lowest() const {
     for (Region* region : regions)

@@ -54,7 +54,7 @@ class ScanToMapRemoval {
     if (context.points < limits.min_points || (limits.three_d && context.bulge_dented)) return false;
     if (config_.shrink_heights) map_.refreshHeights(column);
     if (column.h_max < column.h_min) return false;
-    const int h_min = std::min(column.h_min, context.z_min), h_max = std::max(column.h_max, context.z_max);
+    const int h_min = std::min<int>(column.h_min, context.z_min), h_max = std::max<int>(column.h_max, context.z_max);
     if (h_max - h_min + 1 < limits.min_height / resolution_) return false;
     return ratio1(context, h_min, h_max, limits.max_ring) < limits.delta_1;
   }

@@ -57,11 +57,7 @@ void raiseHeights(const RegionMap& map, const Region& region) {
     const auto [bottom, top] = layersOf(fresh);
     low = std::min(low, corner + bottom), high = std::max(high, corner + top);
   });
-  if (high < 0) return;
-  Column& column = *region.column;
-  const bool empty = column.h_max < column.h_min;
-  column.h_min = empty ? low : std::min(column.h_min, low);
-  column.h_max = empty ? high : std::max(column.h_max, high);
+  if (low <= high) region.column->raise(low, high);
 }
 
 /// The next run of a scan, from point `k` on, which moves on.

@@ -34,7 +34,6 @@ TEST_P(RegionSizes, EachCubeHasOneBitInOneOctant) {
     const Region region{.x = static_cast<key_type>(cube[0] >> map.bits()),
                         .y = static_cast<key_type>(cube[1] >> map.bits()),
                         .z = static_cast<key_type>(cube[2] >> map.bits()),
-                        .plane = {},
                         .octants = {},
                         .counts = {},
                         .past = {}};
