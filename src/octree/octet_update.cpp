@@ -2,6 +2,7 @@
 #include "rhmap/octree/octet_update.hpp"
 
 #include <cfloat>
+#include <cmath>
 
 #undef HWY_TARGET_INCLUDE
 #define HWY_TARGET_INCLUDE "octet_update.cpp"
@@ -31,51 +32,67 @@ HWY_INLINE unsigned bitsOf(MF lanes, std::size_t i) {
 }
 
 /// Of two values the larger; the first of equal ones (0 and -0).
-HWY_INLINE float larger(float first, float second) { return second > first ? second : first; }
+HWY_INLINE VF larger(VF first, VF second) { return hn::IfThenElse(hn::Gt(second, first), second, first); }
 
-HWY_INLINE void updateOctet(OctetUpdate<OcTreeNode>& o, const SensorModel& model) {
+/// The largest of all lanes, of equal ones the first: each with the next, pairs with the next pair, and so on.
+HWY_INLINE float largest(VF v) {
+#if HWY_TARGET != HWY_SCALAR
+  v = larger(v, hn::Shuffle2301(v));
+  v = larger(v, hn::Shuffle1032(v));
+  if (hn::Lanes(F()) > 4) v = larger(v, hn::SwapAdjacentBlocks(v));
+#endif
+  return hn::GetLane(v);
+}
+
+/// SensorModel::settled for hits and for misses: what a value must reach, and what it must not exceed; NaN, which none
+/// does, where an update has no such limit.
+struct SettledAt {
+  explicit SettledAt(const SensorModel& model)
+      : hit_from(model.hit >= 0 ? model.clamp_max : NAN),
+        hit_to(model.hit <= 0 ? model.clamp_min : NAN),
+        miss_from(model.miss >= 0 ? model.clamp_max : NAN),
+        miss_to(model.miss <= 0 ? model.clamp_min : NAN) {}
+  float hit_from, hit_to, miss_from, miss_to;
+};
+
+HWY_INLINE void updateOctet(OctetUpdate<OcTreeNode>& o, const SensorModel& model, const SettledAt& settled_at) {
   const F f;
   static_assert(sizeof(OcTreeNode) == sizeof(float));
   float* values = reinterpret_cast<float*>(o.cells);
-  const VF low = hn::Set(f, model.clamp_min);
-  const VF high = hn::Set(f, model.clamp_max);
-  // SensorModel::settled, for hits and for misses.
-  const MF always = hn::Eq(low, low);
-  const MF never = hn::Not(always);
-  const auto settled = [&](VF value, float update) HWY_ATTR {
-    return hn::Or(hn::And(update >= 0 ? always : never, hn::Ge(value, high)),
-                  hn::And(update <= 0 ? always : never, hn::Le(value, low)));
-  };
-
-  HWY_ALIGN float present[8];  // the values, and the least where there is none or NaN
+  const VF low = hn::Set(f, model.clamp_min), high = hn::Set(f, model.clamp_max), least = hn::Set(f, -FLT_MAX);
   unsigned changed = 0;
-  bool uniform = true;
+  bool uniform = o.after == 0xff;
+  float max = -FLT_MAX;
   VF first = hn::Zero(f);
   for (std::size_t i = 0; i < 8; i += hn::Lanes(f)) {
     const MF hit = lanesOf(o.hit, i);
     const MF existing = lanesOf(o.existing, i);
+    const auto chosen = [&](float of_hit, float of_miss) HWY_ATTR {
+      return hn::IfThenElse(hit, hn::Set(f, of_hit), hn::Set(f, of_miss));
+    };
     const VF before = hn::IfThenElse(existing, hn::LoadU(f, values + i), hn::Set(f, o.start));
-    const MF abort = hn::And(
-        existing, hn::Or(hn::And(hit, settled(before, model.hit)), hn::AndNot(hit, settled(before, model.miss))));
-    const MF change = hn::AndNot(abort, lanesOf(unsigned{o.hit} | o.free, i));
-    const VF sum = hn::Add(before, hn::IfThenElse(hit, hn::Set(f, model.hit), hn::Set(f, model.miss)));
+    const MF settled = hn::Or(hn::Ge(before, chosen(settled_at.hit_from, settled_at.miss_from)),
+                              hn::Le(before, chosen(settled_at.hit_to, settled_at.miss_to)));
+    const MF change = hn::AndNot(hn::And(existing, settled), lanesOf(unsigned{o.hit} | o.free, i));
+    const VF sum = hn::Add(before, chosen(model.hit, model.miss));
     const VF clamped = hn::IfThenElse(hn::Lt(sum, low), low, hn::IfThenElse(hn::Gt(sum, high), high, sum));
     const VF value = hn::IfThenElse(change, clamped, before);
     hn::StoreU(value, f, values + i);
-    const VF least = hn::Set(f, -FLT_MAX);
-    hn::Store(hn::IfThenElse(hn::And(lanesOf(o.after, i), hn::Gt(value, least)), value, least), f, present + i);
+    // As OcTreeNode::maxLogOdds finds it: the least where there is none or NaN.
+    const float most = largest(hn::IfThenElse(hn::And(lanesOf(o.after, i), hn::Gt(value, least)), value, least));
+    if (most > max) max = most;
     if (i == 0) first = hn::Set(f, hn::GetLane(value));
     uniform = uniform && hn::AllTrue(f, hn::Eq(value, first));
     changed |= bitsOf(change, i);
   }
   o.changed = static_cast<std::uint8_t>(changed);
-  o.uniform = uniform && o.after == 0xff;
-  o.max = larger(larger(larger(present[0], present[1]), larger(present[2], present[3])),
-                 larger(larger(present[4], present[5]), larger(present[6], present[7])));
+  o.uniform = uniform;
+  if (changed != 0 && o.parent != nullptr) o.parent->setLogOdds(uniform ? hn::GetLane(first) : max);
 }
 
 void UpdateOctets(OctetUpdate<OcTreeNode>* octets, std::size_t count, const SensorModel& model) {
-  for (std::size_t i = 0; i < count; ++i) updateOctet(octets[i], model);
+  const SettledAt settled_at(model);
+  for (std::size_t i = 0; i < count; ++i) updateOctet(octets[i], model, settled_at);
 }
 
 }  // namespace rhmap::HWY_NAMESPACE

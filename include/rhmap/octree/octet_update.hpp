@@ -7,6 +7,7 @@
 
 #include "rhmap/octree/node.hpp"
 #include "rhmap/octree/sensor_model.hpp"
+#include "rhmap/octree/structure.hpp"
 
 namespace rhmap {
 
@@ -14,18 +15,20 @@ namespace rhmap {
 template <class NODE>
 struct OctetUpdate {
   NODE* cells;
+  NODE* parent;            ///< the node above them, which is to follow; null if it is not
+  float start;             ///< value of the cells that were not there
+  std::uint8_t octet;      ///< number in the region
   std::uint8_t hit, free;  ///< the cells that are marked; none in both
   std::uint8_t existing;   ///< the cells that were there before; what OctoMap's early abort is asked about
   std::uint8_t after;      ///< the cells that are there afterwards, marked ones included
-  float start;             ///< value of those that were not there
 
   // The outcome.
   std::uint8_t changed;  ///< the cells that have a new value
   bool uniform;          ///< all eight are there and equal
-  float max;             ///< the largest value, as OcTreeNode::maxLogOdds finds it; of OcTreeNodes only
 };
 
-/// Updates the marked cells; the nodes in `after` have been made, with the value `start` if they are new.
+/// Updates the marked cells and, where any has changed, what they have made of their parent: a copy of them if they are
+/// uniform, and else recomputed. The nodes in `after` have been made, with the value `start` if they are new.
 template <class NODE>
 void updateOctets(std::span<OctetUpdate<NODE>> octets, const SensorModel& model) {
   for (OctetUpdate<NODE>& o : octets) {
@@ -40,6 +43,12 @@ void updateOctets(std::span<OctetUpdate<NODE>> octets, const SensorModel& model)
     }
     o.uniform = o.after == 0xff;
     for (int i = 1; i < 8 && o.uniform; ++i) o.uniform = o.cells[i] == o.cells[0];
+    if (o.changed == 0 || o.parent == nullptr) continue;
+    if (o.uniform) {
+      o.parent->copyData(o.cells[0]);
+    } else {
+      structure::recompute(*o.parent, Octet<NODE>{o.cells, o.after});
+    }
   }
 }
 

@@ -26,24 +26,27 @@ class RegionUpdate {
   void begin(Block& region, const RegionMasks& masks) {
     region_ = &region;
     count_ = 0;
-    changed_ = {};
+    changed_ = 0;
     whole_ = 0;
-    for (int top = 0; top < 8; ++top) enter(region, top, masks);
+    for (int top = 0; top < 8; ++top) {
+      const std::uint64_t hit = masks.hit[static_cast<std::size_t>(top)];
+      const std::uint64_t free = masks.free[static_cast<std::size_t>(top)] & ~hit;
+      if ((hit | free) != 0) enter(region, top, hit, free);
+    }
   }
 
   /// Updates the cells and what lies above them. False if nothing changed. Better some time after begin().
   bool finish() {
-    Block& region = *region_;
-    updateOctets(std::span(octets_.data(), count_), model_);
-    for (std::size_t i = 0; i < count_; ++i)
-      if (octets_[i].changed != 0) summarise(region, number_[i], octets_[i]);
-    bool any = whole_ != 0;
-    for (int top = 0; top < 8; ++top) {
-      if (changed_[static_cast<std::size_t>(top)] == 0) continue;
-      any = true;
-      if (!lazy_) summarise(region, top);
+    const std::span octets(octets_.data(), count_);
+    updateOctets(octets, model_);
+    for (const OctetUpdate<NODE>& octet : octets) {
+      changed_ |= std::uint64_t{octet.changed != 0} << octet.octet;
+      if (octet.uniform && octet.changed != 0 && !lazy_) editor_.remove(*region_, octet.octet);
     }
-    return any;
+    if (!lazy_)
+      for (std::uint64_t tops = nonzeroBytes(changed_); tops != 0; tops &= tops - 1)
+        summarise(*region_, std::countr_zero(tops) / 8);
+    return changed_ != 0 || whole_ != 0;
   }
 
   /// The value that a leaf has after all cells in it were marked alike, so that it can stay one; false if it has to be
@@ -61,14 +64,12 @@ class RegionUpdate {
   static std::uint8_t& mask(Block& region, int octet) { return region.mask[static_cast<std::size_t>(octet)]; }
 
   /// Goes down one top node: makes what is missing above and around the marked cells and notes the octets to update.
-  void enter(Block& region, int top, const RegionMasks& masks) {
-    std::uint64_t hit = masks.hit[static_cast<std::size_t>(top)];
-    std::uint64_t free = masks.free[static_cast<std::size_t>(top)] & ~hit;
-    if ((hit | free) == 0) return;
+  void enter(Block& region, int top, std::uint64_t hit, std::uint64_t free) {
     const int middles = kMiddleOctet + top;
     const bool is_new = (mask(region, kTopOctet) >> top & 1) == 0;
-    NODE* tops = is_new ? editor_.create(region, kTopOctet, 1U << top) : editor_.nodes(region, kTopOctet);
-    if (is_new || mask(region, middles) == 0) {
+    const bool has_middles = !is_new && mask(region, middles) != 0;
+    if (!has_middles) {
+      NODE* tops = is_new ? editor_.create(region, kTopOctet, 1U << top) : editor_.nodes(region, kTopOctet);
       const float value = tops[top].getLogOdds();
       if (!is_new && !keepUnsettled(value, hit, free)) return;
       float after;
@@ -79,17 +80,18 @@ class RegionUpdate {
       }
       if (!is_new) expand(region, middles, tops[top]);
     }
+    NODE* parents = has_middles ? editor_.nodes(region, middles) : nullptr;  // of the cells that there are
     for (std::uint64_t rest = nonzeroBytes(hit | free); rest != 0; rest &= rest - 1) {
-      const int shift = std::countr_zero(rest) - 7;
-      const int octet = 8 * top + shift / 8;
-      const auto octet_hit = static_cast<std::uint8_t>(hit >> shift);
-      const auto octet_free = static_cast<std::uint8_t>(free >> shift);
+      const int i = std::countr_zero(rest) / 8, octet = 8 * top + i;
+      const auto octet_hit = static_cast<std::uint8_t>(hit >> 8 * i);
+      const auto octet_free = static_cast<std::uint8_t>(free >> 8 * i);
       const std::uint8_t existing = mask(region, octet);
       if (existing != 0) {
         const auto after = static_cast<std::uint8_t>(existing | octet_hit | octet_free);
-        note(octet, makeCells(region, octet, after, nullptr), octet_hit, octet_free, existing, after, 0);
+        NODE* cells = after == existing ? editor_.nodes(region, octet) : makeCells(region, octet, after, nullptr);
+        note(octet, cells, parents + i, octet_hit, octet_free, existing, after, 0);
       } else {
-        enter(region, top, shift / 8, octet_hit, octet_free);
+        enter(region, top, i, octet_hit, octet_free);
       }
     }
   }
@@ -105,26 +107,27 @@ class RegionUpdate {
     float whole;
     if (staysWhole(model_, lazy_, value, hit == 0xff, free == 0xff, whole)) {
       middle->setLogOdds(whole);
-      changed_[static_cast<std::size_t>(top)] |= 1U << i;
+      changed_ |= std::uint64_t{1} << octet;
     } else if (is_new) {
       const auto after = static_cast<std::uint8_t>(hit | free);
-      note(octet, makeCells(region, octet, after, nullptr), hit, free, 0, after, 0);
+      note(octet, makeCells(region, octet, after, nullptr), middle, hit, free, 0, after, 0);
     } else {
-      note(octet, makeCells(region, octet, 0xff, middle), hit, free, 0, 0xff, value);
+      note(octet, makeCells(region, octet, 0xff, middle), middle, hit, free, 0, 0xff, value);
     }
   }
 
-  void note(int octet, NODE* cells, std::uint8_t hit, std::uint8_t free, std::uint8_t existing, std::uint8_t after,
-            float start) {
+  void note(int octet, NODE* cells, NODE* parent, std::uint8_t hit, std::uint8_t free, std::uint8_t existing,
+            std::uint8_t after, float start) {
     __builtin_prefetch(cells, 1);
-    number_[count_] = octet;
     OctetUpdate<NODE>& update = octets_[count_++];
     update.cells = cells;
+    update.parent = lazy_ ? nullptr : parent;
+    update.start = start;
+    update.octet = static_cast<std::uint8_t>(octet);
     update.hit = hit;
     update.free = free;
     update.existing = existing;
     update.after = after;
-    update.start = start;
   }
 
   /// All cells below a leaf have its value: drops the marks that would change nothing. False if none is left.
@@ -152,22 +155,6 @@ class RegionUpdate {
     return cells;
   }
 
-  /// Prunes or recomputes a middle node.
-  void summarise(Block& region, int octet, const OctetUpdate<NODE>& cells) {
-    const int top = octet >> 3;
-    changed_[static_cast<std::size_t>(top)] |= 1U << (octet & 7);
-    if (lazy_) return;
-    NODE& middle = editor_.nodes(region, kMiddleOctet + top)[octet & 7];
-    if (cells.uniform) {
-      middle.copyData(cells.cells[0]);
-      editor_.remove(region, octet);
-    } else if constexpr (kIsPlain) {
-      middle.setLogOdds(cells.max);
-    } else {
-      structure::recompute(middle, Octet<NODE>{cells.cells, cells.after});
-    }
-  }
-
   /// Prunes or recomputes a top node.
   void summarise(Block& region, int top) {
     const int middles = kMiddleOctet + top;
@@ -187,10 +174,9 @@ class RegionUpdate {
   SensorModel model_;
   bool lazy_;
   Block* region_ = nullptr;
-  unsigned whole_ = 0;               // top nodes that have changed and stayed leaves
-  std::array<unsigned, 8> changed_;  // middle nodes that have, or that have cells that have
+  unsigned whole_ = 0;         // top nodes that have changed and stayed leaves
+  std::uint64_t changed_ = 0;  // middle nodes that have, or that have cells that have
   std::size_t count_ = 0;
-  std::array<int, kMiddleOctet> number_;
   std::array<OctetUpdate<NODE>, kMiddleOctet> octets_;
 };
 
