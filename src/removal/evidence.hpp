@@ -76,7 +76,7 @@ void forEachOctantAround(const RegionMap& map, const OcTreeKey& corner, F&& visi
         Region* region = regionAt(x >> map.bits(), y >> map.bits(), z >> map.bits());
         if (region == nullptr) continue;
         const OcTreeKey at(static_cast<key_type>(x), static_cast<key_type>(y), static_cast<key_type>(z));
-        visit(*region, map.octantOf(at), dx, dy, dz);
+        if (const std::size_t o = map.octantOf(at); region->knows(o)) visit(*region, o, dx, dy, dz);
       }
     }
   }
@@ -89,7 +89,7 @@ Neighbourhood lookAround(const RegionMap& map, const OcTreeKey& corner, int reac
   Neighbourhood around;
   const auto& near = kNearSides[static_cast<std::size_t>(reach - 1)];
   forEachOctantAround(map, corner, [&](const Region& region, std::size_t o, int dx, int dy, int dz) {
-    const Octant& octant = region.octants[o];
+    const Octant& octant = region.octant(o);
     const std::uint64_t within = near[0][static_cast<std::size_t>(dx + 1)] & near[1][static_cast<std::size_t>(dy + 1)] &
                                  near[2][static_cast<std::size_t>(dz + 1)];
     const std::uint64_t moving = movingIn(region, o) & within;

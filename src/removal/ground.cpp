@@ -100,11 +100,11 @@ void GroundEstimation::update(const RegionMap& map, const ScanTrace& trace) cons
 void GroundEstimation::setBase(Column& column, Region* lowest) const {
   for (Region* region : column.regions) {
     region->loose_octants = 0;
-    for (std::size_t o = 0; o < region->octants.size(); ++o) {
-      Octant& octant = region->octants[o];
+    forEachBit(region->known_octants, [&](int o) {
+      Octant& octant = region->octant(static_cast<std::size_t>(o));
       octant.ground = octant.safe = 0;
       region->loose_octants |= std::uint64_t{octant.occupied != 0} << o;
-    }
+    });
   }
   column.base = lowest;
   column.base_z = lowest->z;
@@ -174,8 +174,10 @@ bool GroundEstimation::isRaised(const RegionMap& map, const Column& column, cons
 void GroundEstimation::fit(const RegionMap& map, Column& column) const {
   std::array<LocalCube, 16 * 16 * 16> cubes;  // of the largest region
   std::size_t n = 0;
-  for (std::size_t o = 0; o < column.base->octants.size(); ++o)
-    forEachBit(column.base->octants[o].occupied, [&](int bit) { cubes[n++] = localCube(o, bit); });
+  forEachBit(column.base->known_octants, [&](int number) {
+    const auto o = static_cast<std::size_t>(number);
+    forEachBit(column.base->octant(o).occupied, [&](int bit) { cubes[n++] = localCube(o, bit); });
+  });
   column.at_fit = static_cast<std::uint16_t>(n);
   const std::optional<Plane> plane = fitGround({cubes.data(), n}, config_, resolution_);
   const bool had_ground = column.has_ground;  // and so not raised: it takes longer to look around than to fit a plane
@@ -207,11 +209,9 @@ void GroundEstimation::mark(const RegionMap& map, const Column& column, Region& 
       consider(groundAt(map, region.x + dx, region.y + dy));
   }
   if (only_fresh && n == 0) return;
-  const std::size_t octants = region.octants.size();
-  const auto all = ~std::uint64_t{0} >> (64 - octants);
-  forEachBit(only_fresh ? region.hit_octants : all, [&](int number) {
+  forEachBit(only_fresh ? region.hit_octants : region.known_octants, [&](int number) {
     const auto o = static_cast<std::size_t>(number);
-    Octant& octant = region.octants[o];
+    Octant& octant = region.octant(o);
     const std::uint64_t which = only_fresh ? octant.fresh & octant.occupied : octant.occupied;
     std::uint64_t ground = 0, safe = 0;
     forEachBit(n == 0 ? 0 : which, [&](int bit) {

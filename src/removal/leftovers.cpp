@@ -51,7 +51,7 @@ class LooseOctants {
  private:
   void add(Region& region, std::size_t o) {
     if ((region.loose_octants >> o & 1) == 0) return;
-    const Octant& octant = region.octants[o];
+    const Octant& octant = region.octant(o);
     std::uint64_t cubes = octant.occupied & ~octant.ground & ~octant.firm;
     if (look_.protect && region.scan == look_.scan) cubes &= ~octant.hit;
     if (cubes != 0) found_.push_back({cell_word::fromKey(map_.cornerOf(region, o)), &region, o, cubes});
@@ -82,11 +82,11 @@ void removeLeftovers(const RegionMap& map, std::span<const OcTreeKey> changed, i
   std::erase_if(octants, [&](const LooseOctant& octant) {
     const Neighbourhood near = lookAround(
         map, map.cornerOf(*octant.region, octant.octant), reach,
-        [](const Region& region, std::size_t o) { return region.past[o].gone & ~region.octants[o].occupied; });
+        [](const Region& region, std::size_t o) { return pastOf(region.octant(o)).gone & ~region.octant(o).occupied; });
     return near.moving < least || !near.isMoving(config.share, config.others);
   });
   for (const LooseOctant& octant : octants) {  // all were found before any goes
-    const std::uint64_t cubes = knownHits(octant.region->counts[octant.octant], octant.cubes);
+    const std::uint64_t cubes = knownHits(countsOf(octant.region->octant(octant.octant)), octant.cubes);
     if (cubes == 0) continue;
     octant.region->remove(octant.octant, cubes);
     result.removed.push_back({map.cornerOf(*octant.region, octant.octant), cubes, false});

@@ -10,26 +10,20 @@
 namespace rhmap {
 namespace {
 
-static_assert(std::is_trivially_destructible_v<Region> && std::is_trivially_destructible_v<Octant>);
+static_assert(std::is_trivially_destructible_v<Region>);
 
-/// So many bytes, up to where octants are aligned.
-constexpr std::size_t aligned(std::size_t bytes) {
-  return (bytes + alignof(Octant) - 1) / alignof(Octant) * alignof(Octant);
-}
+/// What the octants are that are not known. Not to be written to: it is there for all of them.
+const Octant kUnknown;
 
-constexpr std::size_t kRegionBytes = aligned(sizeof(Region));
-
-/// Of a region with so many octants and all that is kept of them. An odd number of lines of the cache: at a distance of
-/// a power of two, the first lines of all regions would share a few places in it.
+/// Of a region with so many octants.
 constexpr std::size_t recordBytes(std::size_t octants) {
-  const std::size_t bytes = octants * (sizeof(Octant) + sizeof(OctantCounts) + sizeof(OctantPast));
-  return (kRegionBytes + aligned(bytes)) | alignof(Octant);
+  return (sizeof(Region) + octants * sizeof(Octant*) + alignof(Region) - 1) / alignof(Region) * alignof(Region);
 }
 
 }  // namespace
 
-void Region::remove(std::size_t octant, std::uint64_t old_cubes) {
-  Octant& from = octants[octant];
+void Region::remove(std::size_t o, std::uint64_t old_cubes) {
+  Octant& from = octant(o);
   from.occupied &= ~old_cubes;
   from.ground &= ~old_cubes;
   from.safe &= ~old_cubes;
@@ -37,35 +31,30 @@ void Region::remove(std::size_t octant, std::uint64_t old_cubes) {
   from.firm &= ~old_cubes;
   cubes = static_cast<std::uint16_t>(cubes - std::popcount(old_cubes));
   column->stale = column->thinned = true;
-  OctantPast& of = past[octant];
-  of.gone |= old_cubes;
-  of.filled.reset(old_cubes);
-  forEachBit(old_cubes, [&](int bit) { counts[octant][static_cast<std::size_t>(bit)] = {}; });
+  OctantPast& past = pastOf(from);
+  past.gone |= old_cubes;
+  past.filled.reset(old_cubes);
+  forEachBit(old_cubes, [&](int bit) { countsOf(from)[static_cast<std::size_t>(bit)] = {}; });
 }
 
 RegionMap::RegionMap(int size, Reader read)
-    : bits_(std::countr_zero(static_cast<unsigned>(size))), read_(std::move(read)), pool_(recordBytes(octants())) {}
+    : bits_(std::countr_zero(static_cast<unsigned>(size))),
+      read_(std::move(read)),
+      region_pool_(recordBytes(octants())) {}
 
 RegionMap::~RegionMap() {
   for (Column* column : in_order_) delete column;
 }
 
-/// One piece of memory: the region, its octants, their counts, their past.
 Region* RegionMap::makeRegion(Column& column, key_type z) {
-  auto* memory = static_cast<std::byte*>(pool_.allocate());
-  auto* first_octant = reinterpret_cast<Octant*>(memory + kRegionBytes);
-  std::uninitialized_value_construct_n(first_octant, octants());
-  auto* first_counts = reinterpret_cast<OctantCounts*>(first_octant + octants());
-  std::uninitialized_value_construct_n(first_counts, octants());
-  auto* first_past = reinterpret_cast<OctantPast*>(first_counts + octants());
-  std::uninitialized_value_construct_n(first_past, octants());
-  return new (memory) Region{.x = column.x,
-                             .y = column.y,
-                             .z = z,
-                             .column = &column,
-                             .octants = {first_octant, octants()},
-                             .counts = {first_counts, octants()},
-                             .past = {first_past, octants()}};
+  auto* region = new (region_pool_.allocate()) Region{.x = column.x, .y = column.y, .z = z, .column = &column};
+  std::uninitialized_fill_n(region->places(), octants(), const_cast<Octant*>(&kUnknown));
+  return region;
+}
+
+void RegionMap::makeOctant(Region& region, std::size_t o) {
+  region.places()[o] = octant_pool_.allocate();
+  region.known_octants |= std::uint64_t{1} << o;
 }
 
 Column& RegionMap::getOrCreate(key_type x, key_type y) {
@@ -76,6 +65,7 @@ Column& RegionMap::getOrCreate(key_type x, key_type y) {
   for (const auto& [corner, cubes] :
        read_(static_cast<key_type>(x << bits_), static_cast<key_type>(y << bits_), size())) {
     Region& region = getOrCreate(*column, static_cast<key_type>(corner[2] >> bits_));
+    getOrCreate(region, octantOf(corner));
     region.add(octantOf(corner), cubes);
     column->stale = true;
   }
@@ -95,14 +85,15 @@ Region& RegionMap::getOrCreate(Column& column, key_type z) {
 
 std::pair<int, int> RegionMap::heights(const Region& region) const {
   int low = 1 << 16, high = -1;
-  for (std::size_t o = 0; o < octants(); ++o) {
-    const std::uint64_t bits = region.octants[o].occupied;
-    if (bits == 0) continue;
+  forEachBit(region.known_octants, [&](int number) {
+    const auto o = static_cast<std::size_t>(number);
+    const std::uint64_t cubes = region.octant(o).occupied;
+    if (cubes == 0) return;
     const int corner = cornerOf(region, o)[2];
-    const auto [bottom, top] = layersOf(bits);
+    const auto [bottom, top] = layersOf(cubes);
     low = std::min(low, corner + bottom);
     high = std::max(high, corner + top);
-  }
+  });
   return {low, high};
 }
 
@@ -124,7 +115,9 @@ void RegionMap::forgetBeyond(const OcTreeKey& centre, int distance) {
     columns_.erase(nameOf(column->x, column->y));
     for (Region* region : column->regions) {
       regions_.erase(nameOf(region->x, region->y, region->z));
-      pool_.release(region);
+      forEachBit(region->known_octants,
+                 [&](int o) { octant_pool_.release(&region->octant(static_cast<std::size_t>(o))); });
+      region_pool_.release(region);
     }
     delete column;
     return true;
@@ -132,7 +125,8 @@ void RegionMap::forgetBeyond(const OcTreeKey& centre, int distance) {
 }
 
 std::size_t RegionMap::memoryUsage() const {
-  std::size_t bytes = columns_.memoryUsage() + regions_.memoryUsage() + pool_.memoryUsage();
+  std::size_t bytes = columns_.memoryUsage() + regions_.memoryUsage() + region_pool_.memoryUsage() +
+                      octant_pool_.memoryUsage();
   columns_.forEach(
       [&](const Column& column) { bytes += sizeof(Column) + column.regions.capacity() * sizeof(column.regions[0]); });
   return bytes;

@@ -3,63 +3,18 @@
 
 #include <algorithm>
 #include <array>
-#include <bit>
 #include <cstddef>
 #include <cstdint>
 #include <functional>
-#include <span>
 #include <utility>
 #include <vector>
 
-#include "cell_counters.hpp"
+#include "octant.hpp"
+#include "octant_pool.hpp"
 #include "rhmap/core/block_index.hpp"
-#include "rhmap/core/key.hpp"
-#include "rhmap/core/prefetch.hpp"
 #include "rhmap/core/record_pool.hpp"
 
 namespace rhmap {
-
-template <class F>
-void forEachBit(std::uint64_t bits, F&& visit) {
-  for (; bits != 0; bits &= bits - 1) visit(std::countr_zero(bits));
-}
-
-/// 4 x 4 x 4 cubes, bits in Morton order: what lies under one depth-14 node of the tree. One line of the cache.
-struct alignas(64) Octant {
-  std::uint64_t occupied = 0;  ///< cubes that are in the map
-  std::uint64_t ground = 0;    ///< of these, cubes of the ground
-  std::uint64_t safe = 0;      ///< of these, cubes so near to its plane that they stay whatever happens
-  std::uint64_t doubted = 0;   ///< of these, cubes that have been seen through since their last hit
-  std::uint64_t firm = 0;      ///< of these, cubes that many scans have hit, or have seen something at
-  // Of scan Region::scan:
-  std::uint64_t hit = 0;       ///< cubes that it has hit
-  std::uint64_t fresh = 0;     ///< of these, cubes that were not in the map before
-  std::uint64_t appeared = 0;  ///< of these, cubes that past scans have seen through
-};
-
-/// Some cubes of an octant, which is named by its lowest cube.
-struct CubesAt {
-  OcTreeKey corner;
-  std::uint64_t cubes;
-};
-
-/// What is counted of a cube, up to 255. Apart from the masks, which are read far more often.
-struct CubeCounts {
-  std::uint8_t hits = 0;    ///< scans that have hit it
-  std::uint8_t misses = 0;  ///< scans that have seen through it since its last hit
-};
-using OctantCounts = std::array<CubeCounts, 64>;
-
-/// What else is remembered of an octant's cubes.
-struct OctantPast {
-  Counters<3> filled;                   ///< looks that have seen something at a cube's place
-  std::uint64_t gone = 0;               ///< cubes that have been taken out of the map; some may be there again
-  std::uint32_t first = 0;              ///< the first scan that has hit the octant; 0: none
-  std::array<std::uint8_t, 8> scans{};  ///< scans that have hit each of its cells of the void, up to 255
-};
-
-/// One more, up to 255.
-inline void countUp(std::uint8_t& counter) { counter = static_cast<std::uint8_t>(counter + (counter < 255)); }
 
 /// n . I = d: a plane of the ground in cubes, from the lowest cube of its region.
 struct Plane {
@@ -74,36 +29,45 @@ struct Column;
 /// Whose turn it is goes over the columns from scan to scan, so that all scans have the same to do.
 inline std::uint32_t turnOf(key_type x, key_type y, std::uint32_t scan) { return x + y + scan; }
 
-/// M_{I_r}: a region, a cube of 4, 8 or 16 cubes an axis.
-struct Region {
-  key_type x = 0, y = 0, z = 0;  ///< I_r >> bits
-  std::uint32_t scan = 0;        ///< the last scan that hit it
-  std::uint16_t cubes = 0;       ///< in the map
-  bool doubtful = false;         ///< there may be cubes that are doubted
-  std::uint64_t hit_octants = 0;    ///< those that the scan has hit
-  std::uint64_t loose_octants = 0;  ///< those that may have cubes that are not safe
-  Column* column = nullptr;         ///< the one that it stands in
-  std::span<Octant> octants;        ///< in Morton order
-  std::span<OctantCounts> counts;
-  std::span<OctantPast> past;
+/// M_{I_r}: a region, a cube of 4, 8 or 16 cubes an axis. One line of the cache; the places of its octants follow.
+struct alignas(64) Region {
+  key_type x = 0, y = 0, z = 0;      ///< I_r >> bits
+  std::uint16_t cubes = 0;           ///< in the map
+  std::uint32_t scan = 0;            ///< the last scan that hit it
+  bool doubtful = false;             ///< there may be cubes that are doubted
+  std::uint64_t known_octants = 0;   ///< those that a scan has ever hit, or that the tree had cubes in
+  std::uint64_t hit_octants = 0;     ///< those that the scan has hit
+  std::uint64_t loose_octants = 0;   ///< those that may have cubes that are not safe
+  Column* column = nullptr;          ///< the one that it stands in
+
+  /// An octant, in Morton order. Those that are not known are one, without cubes, and must not be written to.
+  [[gnu::always_inline]] Octant& octant(std::size_t o) const { return *places()[o]; }
+  [[gnu::always_inline]] Octant** places() const { return reinterpret_cast<Octant**>(const_cast<Region*>(this) + 1); }
+  bool knows(std::size_t o) const { return (known_octants >> o & 1) != 0; }
+
+  /// Asks for the memory of the region, and of the places of its octants (see BlockIndex::prefetch).
+  [[gnu::always_inline]] static void prefetch(const Region* region) {
+    __builtin_prefetch(region);
+    __builtin_prefetch(region + 1);
+  }
 
   /// Whether there are cubes that were not in the map before the scan that was the last to hit it.
   bool hasFresh() const {
     bool fresh = false;
-    forEachBit(hit_octants, [&](int o) { fresh = fresh || octants[static_cast<std::size_t>(o)].fresh != 0; });
+    forEachBit(hit_octants, [&](int o) { fresh = fresh || octant(static_cast<std::size_t>(o)).fresh != 0; });
     return fresh;
   }
 
-  /// Puts cubes of an octant that are not there yet into the map.
-  void add(std::size_t octant, std::uint64_t new_cubes) {
-    octants[octant].occupied |= new_cubes;
-    loose_octants |= std::uint64_t{new_cubes != 0} << octant;
+  /// Puts cubes of a known octant that are not there yet into the map.
+  void add(std::size_t o, std::uint64_t new_cubes) {
+    octant(o).occupied |= new_cubes;
+    loose_octants |= std::uint64_t{new_cubes != 0} << o;
     cubes = static_cast<std::uint16_t>(cubes + std::popcount(new_cubes));
   }
   /// Notes the doubtful cubes of an octant, if there are any.
-  void noteDoubts(std::size_t octant);
+  void noteDoubts(std::size_t o);
   /// Takes cubes of an octant that are there out of the map.
-  void remove(std::size_t octant, std::uint64_t old_cubes);
+  void remove(std::size_t o, std::uint64_t old_cubes);
 };
 
 /// The regions above each other at one O_r, and H{max,min}(O_r). One line of the cache but for the list: who looks at
@@ -144,25 +108,13 @@ void visitColumns(std::size_t n, ColumnAt&& columnAt, Due&& due, F&& visit) {
     if (i + 3 * kAhead < n) __builtin_prefetch(columnAt(i + 3 * kAhead));
     if (const Column* column = ahead(i + 2 * kAhead)) __builtin_prefetch(column->regions.data());
     if (const Column* column = ahead(i + kAhead))
-      for (const Region* region : column->regions) prefetchWhole(region);
+      for (const Region* region : column->regions) Region::prefetch(region);
     if (due(*columnAt(i))) visit(*columnAt(i));
   }
 }
 
-inline void Region::noteDoubts(std::size_t octant) {
-  if (octants[octant].doubted != 0) doubtful = column->doubtful = true;
-}
-
-/// Bits 0 to 3 of a key, three places apart.
-inline constexpr std::array<std::uint16_t, 16> kSpread = [] {
-  std::array<std::uint16_t, 16> spread{};
-  for (unsigned i = 0; i < 16; ++i) spread[i] = static_cast<std::uint16_t>(spread3(i) | (i & 8) << 6);
-  return spread;
-}();
-
-/// Morton index of a cube among 16 x 16 x 16.
-inline std::size_t mortonOf(const OcTreeKey& cube) {
-  return static_cast<std::size_t>(kSpread[cube[0] & 15] | kSpread[cube[1] & 15] << 1 | kSpread[cube[2] & 15] << 2);
+inline void Region::noteDoubts(std::size_t o) {
+  if (octant(o).doubted != 0) doubtful = column->doubtful = true;
 }
 
 /// What the removal knows of the map around the sensor: RH-Map's attributes of regions and cubes (Sec. III-B), in a
@@ -187,6 +139,10 @@ class RegionMap {
   Region* find(int x, int y, int z) const { return regions_.find(nameOf(x, y, z)); }
   Column& getOrCreate(key_type x, key_type y);
   Region& getOrCreate(Column& column, key_type z);
+  Octant& getOrCreate(Region& region, std::size_t o) {
+    if (!region.knows(o)) makeOctant(region, o);
+    return region.octant(o);
+  }
   /// The region of a cube.
   Region& getOrCreate(const OcTreeKey& cube) {
     const auto part = [&](unsigned axis) { return static_cast<key_type>(cube[axis] >> bits_); };
@@ -244,35 +200,15 @@ class RegionMap {
   }
 
   Region* makeRegion(Column& column, key_type z);
+  void makeOctant(Region& region, std::size_t o);
 
   int bits_;
   Reader read_;
-  RecordPool pool_;  // regions, each with its octants and their counts
+  RecordPool region_pool_;  // each with the places of its octants
+  OctantPool octant_pool_;
   BlockIndex<Column> columns_;
   BlockIndex<Region> regions_;
   std::vector<Column*> in_order_;  // the same
 };
-
-/// Bit of a cube in its octant.
-inline int bitOf(const OcTreeKey& cube) { return static_cast<int>(mortonOf(cube) & 63); }
-inline constexpr std::uint64_t maskOf(int bit) { return std::uint64_t{1} << bit; }
-/// The cube of a bit, from the octant's lowest cube.
-inline OcTreeKey cubeOf(const OcTreeKey& corner, int bit) {
-  const auto b = static_cast<unsigned>(bit);
-  const auto along = [b](unsigned axis) { return (b >> axis & 1) | (b >> (axis + 2) & 2); };
-  return {static_cast<key_type>(corner[0] + along(0)), static_cast<key_type>(corner[1] + along(1)),
-          static_cast<key_type>(corner[2] + along(2))};
-}
-/// The cubes of an octant with this z in it (0 ... 3).
-inline constexpr std::uint64_t layerOf(int z) {
-  return std::uint64_t{0x0f0f0f0f} << (4 * (z & 1)) << (32 * (z >> 1 & 1));
-}
-/// The lowest and the highest z of cubes of an octant of which there is one at least.
-inline std::pair<int, int> layersOf(std::uint64_t cubes) {
-  int low = 0, high = 3;
-  while ((cubes & layerOf(low)) == 0) ++low;
-  while ((cubes & layerOf(high)) == 0) --high;
-  return {low, high};
-}
 
 }  // namespace rhmap

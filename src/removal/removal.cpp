@@ -173,14 +173,14 @@ std::size_t RhMap::Removal::write(const ScanTrace& trace, const octomap::Pointcl
   const std::size_t octants = std::min<std::size_t>(8, regions_.octants());
   const bool are_whole = octants == 8 && !config_.carve;  // each of the tree's regions comes once
   trace.forEachRegion([&](const Region& region) {
-    for (std::size_t first = 0; first < region.octants.size(); first += octants) {
+    for (std::size_t first = 0; first < regions_.octants(); first += octants) {
       const std::uint64_t word = cell_word::fromKey(regions_.cornerOf(region, first));
       RegionMasks hits{};
       hits.region = word >> 9;
       std::size_t cubes = 0;
       forEachBit(region.hit_octants >> first & 0xff, [&](int o) {
         const std::size_t number = first + static_cast<std::size_t>(o);
-        const Octant& octant = region.octants[number];
+        const Octant& octant = region.octant(number);
         const std::uint64_t hit = octant.hit & octant.occupied;
         hits.hit[(word >> 6 & 7) + static_cast<std::size_t>(o)] = hit;
         cubes += static_cast<std::size_t>(std::popcount(hit));
@@ -227,7 +227,7 @@ void RhMap::Removal::markFree(const octomap::Pointcloud& points, const octomap::
       const OcTreeKey corner = cell_word::toKey(marked.region << 9 | t << 6);
       const Region* region = regions_.regionOf(corner);
       free.free[t] &= ~marked.hit[t];
-      if (region != nullptr) free.free[t] &= ~region->octants[regions_.octantOf(corner)].occupied;
+      if (region != nullptr) free.free[t] &= ~region->octant(regions_.octantOf(corner)).occupied;
     }
     cells_.mark(free);
   });
@@ -272,7 +272,7 @@ void RhMap::Removal::forgetFar(const OcTreeKey& sensor) {
 
 bool RhMap::Removal::isGround(const OcTreeKey& cube) const {
   const Region* region = regions_.regionOf(cube);
-  return region != nullptr && (region->octants[regions_.octantOf(cube)].ground & maskOf(bitOf(cube))) != 0;
+  return region != nullptr && (region->octant(regions_.octantOf(cube)).ground & maskOf(bitOf(cube))) != 0;
 }
 
 std::size_t RhMap::Removal::memoryUsage() const { return regions_.memoryUsage() + free_space_.memoryUsage(); }

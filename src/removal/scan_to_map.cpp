@@ -115,7 +115,7 @@ class ScanToMapRemoval {
     const bool all_ground = misses == 1 || turn % static_cast<std::uint32_t>(config_.evidence.ground_interval) == 0;
     forEachBit(region.loose_octants, [&](int number) {
       const auto o = static_cast<std::size_t>(number);
-      const Octant& octant = region.octants[o];
+      const Octant& octant = region.octant(o);
       region.noteDoubts(o);
       std::uint64_t cubes = octant.occupied & ~octant.safe;
       // With nothing but the ratio to go by, all that is near the ground has to stay.
@@ -155,12 +155,12 @@ class ScanToMapRemoval {
       const std::uint64_t filled = looks[d].filled, through = looks[d].seen_through;
       if ((filled | through) == 0) continue;
       Region& region = *doubt.region;
-      OctantCounts& counts = region.counts[doubt.octant];
-      Octant& octant = region.octants[doubt.octant];
+      Octant& octant = region.octant(doubt.octant);
+      OctantCounts& counts = countsOf(octant);
       forEachBit(through, [&](int bit) { countUp(counts[static_cast<std::size_t>(bit)].misses); });
       forEachBit(filled & octant.doubted, [&](int bit) { counts[static_cast<std::size_t>(bit)].misses = 0; });
       if (const std::uint64_t loose = filled & ~octant.firm; loose != 0) {
-        OctantPast& past = region.past[doubt.octant];
+        OctantPast& past = pastOf(octant);
         past.filled.countUp(loose);
         octant.firm |= past.filled.atLeast(static_cast<unsigned>(config_.evidence.filled));
       }
@@ -179,9 +179,10 @@ class ScanToMapRemoval {
     const EvidenceConfig& evidence = config_.evidence;
     for (std::size_t d = 0; d < doubts_.size(); ++d) {
       const Doubt& doubt = doubts_[d];
+      const OctantCounts& counts = countsOf(doubt.region->octant(doubt.octant));
       std::uint64_t seen = 0, due = 0, sure = 0;
       forEachBit(doubt.cubes, [&](int bit) {
-        const auto [hits, misses] = doubt.region->counts[doubt.octant][static_cast<std::size_t>(bit)];
+        const auto [hits, misses] = counts[static_cast<std::size_t>(bit)];
         if (look_.revert_hits > 0 && hits >= look_.revert_hits) return;
         seen |= maskOf(bit);
         if (misses >= doubt.misses) due |= maskOf(bit);
@@ -195,7 +196,7 @@ class ScanToMapRemoval {
     }
     for (std::size_t d = 0; d < doubts_.size(); ++d) {
       const Doubt& doubt = doubts_[d];
-      gone[d] &= doubt.region->octants[doubt.octant].occupied;  // a region may have been looked at twice
+      gone[d] &= doubt.region->octant(doubt.octant).occupied;  // a region may have been looked at twice
       if (gone[d] == 0) continue;
       doubt.region->remove(doubt.octant, gone[d]);
       result_.removed.push_back({map_.cornerOf(*doubt.region, doubt.octant), gone[d], scan_.visibility != nullptr});
@@ -204,7 +205,7 @@ class ScanToMapRemoval {
 
   Neighbourhood doubtedAround(const Doubt& doubt, int reach) const {
     return lookAround(map_, map_.cornerOf(*doubt.region, doubt.octant), reach,
-                      [](const Region& region, std::size_t o) { return region.octants[o].doubted; });
+                      [](const Region& region, std::size_t o) { return region.octant(o).doubted; });
   }
 
   const RegionMap& map_;

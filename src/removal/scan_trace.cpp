@@ -24,7 +24,7 @@ struct Run {
 void touch(Region& region, ScanTrace& trace) {
   region.scan = trace.scan;
   forEachBit(region.hit_octants, [&](int o) {
-    Octant& octant = region.octants[static_cast<std::size_t>(o)];
+    Octant& octant = region.octant(static_cast<std::size_t>(o));
     octant.hit = octant.fresh = octant.appeared = 0;
   });
   region.hit_octants = 0;
@@ -33,8 +33,8 @@ void touch(Region& region, ScanTrace& trace) {
 
 /// The hit cubes of an octant: in the map from now on, and with nothing that speaks against them.
 void insert(Region& region, std::size_t o, int firm) {
-  Octant& octant = region.octants[o];
-  OctantCounts& counts = region.counts[o];
+  Octant& octant = region.octant(o);
+  OctantCounts& counts = countsOf(octant);
   octant.fresh = octant.hit & ~octant.occupied;
   octant.doubted &= ~octant.hit;
   forEachBit(octant.hit, [&](int bit) {
@@ -51,7 +51,7 @@ void raiseHeights(const RegionMap& map, const Region& region) {
   int low = 1 << 16, high = -1;
   forEachBit(region.hit_octants, [&](int o) {
     const auto number = static_cast<std::size_t>(o);
-    const std::uint64_t fresh = region.octants[number].fresh;
+    const std::uint64_t fresh = region.octant(number).fresh;
     if (fresh == 0) return;
     const int corner = map.cornerOf(region, number)[2];
     const auto [bottom, top] = layersOf(fresh);
@@ -120,9 +120,9 @@ ScanTrace traceScan(RegionMap& map, const ScanPoints& points, const OcTreeKey& s
       }
       region = map.find(runs[i].name);
       if (region == nullptr) region = &map.getOrCreate(runs[i].cube);
-      prefetchWhole(region);
+      Region::prefetch(region);
     }
-    for (std::size_t i = 0; i < n; ++i) __builtin_prefetch(&runs[i].region->octants[map.octantOf(runs[i].cube)]);
+    for (std::size_t i = 0; i < n; ++i) __builtin_prefetch(&runs[i].region->octant(map.octantOf(runs[i].cube)));
     for (std::size_t i = 0; i < n; ++i) {
       const Run& run = runs[i];
       Region& region = *run.region;
@@ -130,15 +130,16 @@ ScanTrace traceScan(RegionMap& map, const ScanPoints& points, const OcTreeKey& s
       if (run.points > 0)
         if (std::int32_t* index = grid.at(region.x, region.y)) addToColumn(*region.column, run, *index, trace);
       const std::size_t o = map.octantOf(run.cube);
-      region.octants[o].hit |= run.cubes;
+      map.getOrCreate(region, o).hit |= run.cubes;
       region.hit_octants |= std::uint64_t{1} << o;
     }
   }
   if (config.insert) {
     const auto askFor = [](const Region& region, std::size_t o) __attribute__((always_inline)) {
       __builtin_prefetch(region.column);
-      __builtin_prefetch(&region.counts[o].front());
-      __builtin_prefetch(&region.counts[o].back());
+      const OctantCounts& counts = countsOf(region.octant(o));
+      __builtin_prefetch(&counts.front());
+      __builtin_prefetch(&counts.back());
     };
     trace.forEachRegion(askFor, [&](Region& region) {
       forEachBit(region.hit_octants, [&](int o) { insert(region, static_cast<std::size_t>(o), config.firm); });

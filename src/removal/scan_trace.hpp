@@ -30,12 +30,12 @@ struct ScanTrace {
   void forEachRegion(AskFor&& askFor, F&& visit) const {
     constexpr std::size_t kAhead = 10;
     for (std::size_t i = 0; i < regions.size(); ++i) {
-      if (i + 2 * kAhead < regions.size()) prefetchWhole(regions[i + 2 * kAhead]);
+      if (i + 2 * kAhead < regions.size()) Region::prefetch(regions[i + 2 * kAhead]);
       if (i + kAhead < regions.size()) {
         const Region& soon = *regions[i + kAhead];
         forEachBit(soon.hit_octants, [&](int o) {
           const auto number = static_cast<std::size_t>(o);
-          __builtin_prefetch(&soon.octants[number]);
+          __builtin_prefetch(&soon.octant(number));
           askFor(soon, number);
         });
       }
@@ -53,7 +53,7 @@ struct ScanTrace {
     forEachRegion(askFor, [&](Region& region) {
       forEachBit(region.hit_octants, [&](int o) {
         const auto number = static_cast<std::size_t>(o);
-        visit(region, number, region.octants[number]);
+        visit(region, number, region.octant(number));
       });
     });
   }

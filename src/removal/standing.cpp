@@ -7,10 +7,10 @@ void noteStanding(const RegionMap& map, const ScanTrace& trace, const FreeSpace&
                   const StandingConfig& config) {
   const int shift = free_space.shift();
   const auto askFor = [](const Region& region, std::size_t o) __attribute__((always_inline)) {
-    __builtin_prefetch(&region.past[o].first);
+    __builtin_prefetch(&pastOf(region.octant(o)).first);
   };
   trace.forEachHitOctant(askFor, [&](const Region& region, std::size_t o, Octant& octant) {
-    OctantPast& past = region.past[o];
+    OctantPast& past = pastOf(octant);
     if (past.first == 0) past.first = trace.scan;
     const OcTreeKey corner = map.cornerOf(region, o);
     const auto scansOf = [&](const OcTreeKey& cell) -> std::uint8_t& {

@@ -1,0 +1,91 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <array>
+#include <bit>
+#include <cstddef>
+#include <cstdint>
+#include <utility>
+
+#include "cell_counters.hpp"
+#include "rhmap/core/key.hpp"
+
+namespace rhmap {
+
+template <class F>
+void forEachBit(std::uint64_t bits, F&& visit) {
+  for (; bits != 0; bits &= bits - 1) visit(std::countr_zero(bits));
+}
+
+/// 4 x 4 x 4 cubes, bits in Morton order: what lies under one depth-14 node of the tree. One line of the cache.
+struct alignas(64) Octant {
+  std::uint64_t occupied = 0;  ///< cubes that are in the map
+  std::uint64_t ground = 0;    ///< of these, cubes of the ground
+  std::uint64_t safe = 0;      ///< of these, cubes so near to its plane that they stay whatever happens
+  std::uint64_t doubted = 0;   ///< of these, cubes that have been seen through since their last hit
+  std::uint64_t firm = 0;      ///< of these, cubes that many scans have hit, or have seen something at
+  // Of scan Region::scan:
+  std::uint64_t hit = 0;       ///< cubes that it has hit
+  std::uint64_t fresh = 0;     ///< of these, cubes that were not in the map before
+  std::uint64_t appeared = 0;  ///< of these, cubes that past scans have seen through
+};
+
+/// Some cubes of an octant, which is named by its lowest cube.
+struct CubesAt {
+  OcTreeKey corner;
+  std::uint64_t cubes;
+};
+
+/// What is counted of a cube, up to 255. Apart from the masks, which are read far more often.
+struct CubeCounts {
+  std::uint8_t hits = 0;    ///< scans that have hit it
+  std::uint8_t misses = 0;  ///< scans that have seen through it since its last hit
+};
+using OctantCounts = std::array<CubeCounts, 64>;
+
+/// What else is remembered of an octant's cubes.
+struct OctantPast {
+  Counters<3> filled;                   ///< looks that have seen something at a cube's place
+  std::uint64_t gone = 0;               ///< cubes that have been taken out of the map; some may be there again
+  std::uint32_t first = 0;              ///< the first scan that has hit the octant; 0: none
+  std::array<std::uint8_t, 8> scans{};  ///< scans that have hit each of its cells of the void, up to 255
+};
+
+/// One more, up to 255.
+inline void countUp(std::uint8_t& counter) { counter = static_cast<std::uint8_t>(counter + (counter < 255)); }
+
+/// Bits 0 to 3 of a key, three places apart.
+inline constexpr std::array<std::uint16_t, 16> kSpread = [] {
+  std::array<std::uint16_t, 16> spread{};
+  for (unsigned i = 0; i < 16; ++i) spread[i] = static_cast<std::uint16_t>(spread3(i) | (i & 8) << 6);
+  return spread;
+}();
+
+/// Morton index of a cube among 16 x 16 x 16.
+inline std::size_t mortonOf(const OcTreeKey& cube) {
+  return static_cast<std::size_t>(kSpread[cube[0] & 15] | kSpread[cube[1] & 15] << 1 | kSpread[cube[2] & 15] << 2);
+}
+
+/// Bit of a cube in its octant.
+inline int bitOf(const OcTreeKey& cube) { return static_cast<int>(mortonOf(cube) & 63); }
+inline constexpr std::uint64_t maskOf(int bit) { return std::uint64_t{1} << bit; }
+/// The cube of a bit, from the octant's lowest cube.
+inline OcTreeKey cubeOf(const OcTreeKey& corner, int bit) {
+  const auto b = static_cast<unsigned>(bit);
+  const auto along = [b](unsigned axis) { return (b >> axis & 1) | (b >> (axis + 2) & 2); };
+  return {static_cast<key_type>(corner[0] + along(0)), static_cast<key_type>(corner[1] + along(1)),
+          static_cast<key_type>(corner[2] + along(2))};
+}
+/// The cubes of an octant with this z in it (0 ... 3).
+inline constexpr std::uint64_t layerOf(int z) {
+  return std::uint64_t{0x0f0f0f0f} << (4 * (z & 1)) << (32 * (z >> 1 & 1));
+}
+/// The lowest and the highest z of cubes of an octant of which there is one at least.
+inline std::pair<int, int> layersOf(std::uint64_t cubes) {
+  int low = 0, high = 3;
+  while ((cubes & layerOf(low)) == 0) ++low;
+  while ((cubes & layerOf(high)) == 0) --high;
+  return {low, high};
+}
+
+}  // namespace rhmap

@@ -1,0 +1,89 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <cstring>
+#include <new>
+#include <type_traits>
+#include <vector>
+
+#include "octant.hpp"
+#include "rhmap/core/large_piece.hpp"
+
+namespace rhmap {
+
+/// What is kept of an octant besides its masks, which are read far more often.
+struct alignas(64) OctantHistory {
+  OctantCounts counts;
+  OctantPast past;
+};
+
+/// Memory for octants at addresses that stay. The masks lie side by side in the lower part of each piece of memory, so
+/// that neighbours share pages; the histories lie in the upper part, and the address of the masks tells where.
+class OctantPool {
+ public:
+  OctantPool() = default;
+  OctantPool(const OctantPool&) = delete;
+  OctantPool& operator=(const OctantPool&) = delete;
+  ~OctantPool() {
+    for (std::byte* piece : pieces_) freeLargePiece(piece);
+  }
+
+  /// Of nothing that is known yet.
+  Octant* allocate() {
+    void* memory = released_;
+    if (memory != nullptr) {
+      std::memcpy(&released_, memory, sizeof released_);
+    } else {
+      if (next_ == kInPiece) addPiece();
+      memory = pieces_.back() + next_++ * sizeof(Octant);
+    }
+    auto* octant = new (memory) Octant();
+    new (historyPlace(octant)) OctantHistory();
+    return octant;
+  }
+
+  void release(Octant* octant) noexcept {
+    std::memcpy(static_cast<void*>(octant), &released_, sizeof released_);
+    released_ = octant;
+  }
+
+  /// Inlined by force: who asks for its memory ahead does nothing else (see BlockIndex::prefetch).
+  [[gnu::always_inline]] static OctantHistory& historyOf(const Octant& octant) {
+    return *std::launder(static_cast<OctantHistory*>(historyPlace(&octant)));
+  }
+
+  std::size_t memoryUsage() const {
+    return (pieces_.size() * kInPiece - (kInPiece - next_)) * (sizeof(Octant) + sizeof(OctantHistory));
+  }
+
+ private:
+  static_assert(std::is_trivially_destructible_v<Octant> && std::is_trivially_destructible_v<OctantHistory>);
+  static constexpr std::size_t kInPiece = kLargePieceBytes / (sizeof(Octant) + sizeof(OctantHistory));
+
+  [[gnu::always_inline]] static void* historyPlace(const Octant* octant) {
+    const std::size_t offset = reinterpret_cast<std::uintptr_t>(octant) % kLargePieceBytes;
+    std::byte* piece = reinterpret_cast<std::byte*>(const_cast<Octant*>(octant)) - offset;
+    return piece + kInPiece * sizeof(Octant) + offset / sizeof(Octant) * sizeof(OctantHistory);
+  }
+
+  void addPiece() {
+    pieces_.reserve(pieces_.size() + 1);
+    pieces_.push_back(static_cast<std::byte*>(allocateLargePiece(!pieces_.empty())));  // small maps stay small
+    next_ = 0;
+  }
+
+  std::vector<std::byte*> pieces_;
+  std::size_t next_ = kInPiece;  // of the last piece
+  void* released_ = nullptr;     // the last of them; each holds the address of the one before
+};
+
+/// What is counted of an octant's cubes. Of octants of a RegionMap, as the next.
+[[gnu::always_inline]] inline OctantCounts& countsOf(Octant& octant) { return OctantPool::historyOf(octant).counts; }
+[[gnu::always_inline]] inline const OctantCounts& countsOf(const Octant& octant) { return OctantPool::historyOf(octant).counts; }
+/// What else is remembered of them.
+[[gnu::always_inline]] inline OctantPast& pastOf(Octant& octant) { return OctantPool::historyOf(octant).past; }
+[[gnu::always_inline]] inline const OctantPast& pastOf(const Octant& octant) { return OctantPool::historyOf(octant).past; }
+
+}  // namespace rhmap
