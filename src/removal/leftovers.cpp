@@ -53,7 +53,7 @@ class LooseOctants {
     if ((region.loose_octants >> o & 1) == 0) return;
     const Octant& octant = region.octant(o);
     std::uint64_t cubes = octant.occupied & ~octant.ground & ~octant.firm;
-    if (look_.protect && region.scan == look_.scan) cubes &= ~octant.hit;
+    if (look_.protect && region.isHitBy(look_.scan, o)) cubes &= ~octant.hit;
     if (cubes != 0) found_.push_back({cell_word::fromKey(map_.cornerOf(region, o)), &region, o, cubes});
   }
 

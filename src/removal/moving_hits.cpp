@@ -33,7 +33,7 @@ std::size_t MovingHits::reject(const RegionMap& map, const ScanTrace& trace, con
     if (come != 0) {
       const Neighbourhood around =
           lookAround(map, map.cornerOf(region, o), kFarthestAround,
-                     [&](const Region& r, std::size_t n) { return r.scan == trace.scan ? r.octant(n).appeared : 0; });
+                     [&](const Region& r, std::size_t n) { return r.isHitBy(trace.scan, n) ? r.octant(n).appeared : 0; });
       if (around.moving < least_come_ || !around.isMoving(config_.look_back.share)) come = 0;
     }
     forEachCell(octant.hit, map.cornerOf(region, o), shift, [&](const OcTreeKey& corner, std::uint64_t hit) {
@@ -97,7 +97,7 @@ void MovingHits::growSeeds(const CellGrid& ends) {
 bool MovingHits::isNew(const RegionMap& map, const ScanTrace& trace, const Region& region, std::size_t o) const {
   const Neighbourhood around =
       lookAround(map, map.cornerOf(region, o), reach_, [&](const Region& r, std::size_t n) -> std::uint64_t {
-        return r.scan == trace.scan ? r.octant(n).fresh & ~r.octant(n).ground : 0;
+        return r.isHitBy(trace.scan, n) ? r.octant(n).fresh & ~r.octant(n).ground : 0;
       });
   return around.moving >= least_new_ && around.isMoving(config_.evidence.share);
 }

@@ -24,7 +24,7 @@ struct alignas(64) Octant {
   std::uint64_t safe = 0;      ///< of these, cubes so near to its plane that they stay whatever happens
   std::uint64_t doubted = 0;   ///< of these, cubes that have been seen through since their last hit
   std::uint64_t firm = 0;      ///< of these, cubes that many scans have hit, or have seen something at
-  // Of scan Region::scan:
+  // Of scan Region::scan, if that has hit the octant:
   std::uint64_t hit = 0;       ///< cubes that it has hit
   std::uint64_t fresh = 0;     ///< of these, cubes that were not in the map before
   std::uint64_t appeared = 0;  ///< of these, cubes that past scans have seen through

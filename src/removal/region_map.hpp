@@ -51,6 +51,9 @@ struct alignas(64) Region {
     __builtin_prefetch(region + 1);
   }
 
+  /// Whether what an octant says of hits is said of the scan of this number.
+  bool isHitBy(std::uint32_t number, std::size_t o) const { return scan == number && (hit_octants >> o & 1) != 0; }
+
   /// Whether there are cubes that were not in the map before the scan that was the last to hit it.
   bool hasFresh() const {
     bool fresh = false;

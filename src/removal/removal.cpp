@@ -67,8 +67,9 @@ ScanReport RhMap::Removal::process(const octomap::Pointcloud& points, const octo
   clock.charge(Stage::kTransform);
 
   // Into the regions: H and the attributes of cubes. Sec. III-B
+  octants_.gather(points_, config_.context.max_range);
   ScanTrace trace = traceScan(
-      regions_, points_, sensor, scan_,
+      regions_, octants_, sensor, scan_,
       {.reach = config_.context.max_range, .resolution = resolution_, .firm = config_.evidence.firm, .insert = insert});
   clock.charge(Stage::kInsert);
 

@@ -54,6 +54,7 @@ class RhMap::Removal {
   std::uint32_t scan_ = 0;
   // Of the scan at hand; kept for their memory.
   ScanPoints points_;
+  ScanOctants octants_;
   std::vector<OcTreeKey> changed_;  // octants that have lost cubes, by their lowest
   ScanMasks cells_;
 };

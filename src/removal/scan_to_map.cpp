@@ -121,7 +121,7 @@ class ScanToMapRemoval {
       // With nothing but the ratio to go by, all that is near the ground has to stay.
       if (scan_.visibility == nullptr) cubes &= ~octant.ground;
       if (!all_ground) cubes &= ~octant.ground | octant.doubted;
-      if (look_.protect && region.scan == look_.scan) cubes &= ~octant.hit;
+      if (look_.protect && region.isHitBy(look_.scan, o)) cubes &= ~octant.hit;
       const OcTreeKey corner = map_.cornerOf(region, o);
       if (cubes == 0 || (octant.doubted == 0 && isHidden(corner, 4))) return;
       doubts_.push_back({&region, o, cubes, misses});

@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "region_map.hpp"
-#include "scan_points.hpp"
+#include "scan_octants.hpp"
 
 namespace rhmap {
 
@@ -71,7 +71,7 @@ struct TraceConfig {
 };
 
 /// Marks the cubes of a scan in the regions: Octant::hit and, if they are to be inserted, what follows from it.
-ScanTrace traceScan(RegionMap& map, const ScanPoints& points, const OcTreeKey& sensor, std::uint32_t scan,
+ScanTrace traceScan(RegionMap& map, const ScanOctants& octants, const OcTreeKey& sensor, std::uint32_t scan,
                     const TraceConfig& config);
 
 /// The columns of a trace around the sensor, by position.
