@@ -91,7 +91,7 @@ void GroundEstimation::update(const RegionMap& map, const ScanTrace& trace) cons
     }
     for (Region* region : column.regions) {
       if (region->z > lowest->z + 1) break;
-      if (anew || (region->scan == trace.scan && region->hasFresh())) mark(map, column, *region, !anew);
+      if (anew || (region->scan == trace.scan && region->fresh_octants != 0)) mark(map, column, *region, !anew);
     }
   });
 }
@@ -209,7 +209,7 @@ void GroundEstimation::mark(const RegionMap& map, const Column& column, Region& 
       consider(groundAt(map, region.x + dx, region.y + dy));
   }
   if (only_fresh && n == 0) return;
-  forEachBit(only_fresh ? region.hit_octants : region.known_octants, [&](int number) {
+  forEachBit(only_fresh ? region.fresh_octants : region.known_octants, [&](int number) {
     const auto o = static_cast<std::size_t>(number);
     Octant& octant = region.octant(o);
     const std::uint64_t which = only_fresh ? octant.fresh & octant.occupied : octant.occupied;

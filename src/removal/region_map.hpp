@@ -37,6 +37,7 @@ struct alignas(64) Region {
   bool doubtful = false;             ///< there may be cubes that are doubted
   std::uint64_t known_octants = 0;   ///< those that a scan has ever hit, or that the tree had cubes in
   std::uint64_t hit_octants = 0;     ///< those that the scan has hit
+  std::uint64_t fresh_octants = 0;   ///< of these, those with cubes that were not in the map before
   std::uint64_t loose_octants = 0;   ///< those that may have cubes that are not safe
   Column* column = nullptr;          ///< the one that it stands in
 
@@ -53,13 +54,6 @@ struct alignas(64) Region {
 
   /// Whether what an octant says of hits is said of the scan of this number.
   bool isHitBy(std::uint32_t number, std::size_t o) const { return scan == number && (hit_octants >> o & 1) != 0; }
-
-  /// Whether there are cubes that were not in the map before the scan that was the last to hit it.
-  bool hasFresh() const {
-    bool fresh = false;
-    forEachBit(hit_octants, [&](int o) { fresh = fresh || octant(static_cast<std::size_t>(o)).fresh != 0; });
-    return fresh;
-  }
 
   /// Puts cubes of a known octant that are not there yet into the map.
   void add(std::size_t o, std::uint64_t new_cubes) {

@@ -68,30 +68,31 @@ ScanReport RhMap::Removal::process(const octomap::Pointcloud& points, const octo
 
   // Into the regions: H and the attributes of cubes. Sec. III-B
   octants_.gather(points_, config_.context.max_range);
-  ScanTrace trace = traceScan(
+  traceScan(
       regions_, octants_, sensor, scan_,
-      {.reach = config_.context.max_range, .resolution = resolution_, .firm = config_.evidence.firm, .insert = insert});
+      {.reach = config_.context.max_range, .resolution = resolution_, .firm = config_.evidence.firm, .insert = insert},
+      trace_);
   clock.charge(Stage::kInsert);
 
   // R-GPE. Sec. III-C.1
-  if (insert) ground_.update(regions_, trace);
+  if (insert) ground_.update(regions_, trace_);
   clock.charge(Stage::kGround);
 
   // Range image and scan contexts. Sec. III-C.2
   const Projection projection = projection_ ? *projection_ : measureProjection(config_.image, points_);
   if (points_.size() >= kEnoughToMeasure) projection_ = projection;
   const RangeImage image(projection, points_);
-  ScanContext context = contextOf(pose, trace, sensor, image);
+  ScanContext context = contextOf(pose, sensor, image);
   clock.charge(Stage::kImage);
 
   // What moves stays out. Beyond the paper
   RemovalResult result;
   std::span<const OcTreeKey> rejected_from;
   const bool keeps_out = config_.free_space.enabled || config_.look_back.enabled;
-  if (insert && keeps_out) free_space_.observe(regions_, trace, context.view.origin());
-  if (insert && config_.standing.enabled) noteStanding(regions_, trace, free_space_, config_.standing);
+  if (insert && keeps_out) free_space_.observe(regions_, trace_, context.view.origin());
+  if (insert && config_.standing.enabled) noteStanding(regions_, trace_, free_space_, config_.standing);
   if (insert && keeps_out) {
-    report.rejected = moving_hits_.reject(regions_, trace, free_space_, result.removed);
+    report.rejected = moving_hits_.reject(regions_, trace_, free_space_, result.removed);
     rejected_from = moving_hits_.rejectedFrom();
     moving_hits_.remember(scan_, context);
   }
@@ -104,7 +105,7 @@ ScanReport RhMap::Removal::process(const octomap::Pointcloud& points, const octo
   clearUp(rejected_from, config_.leftovers.interval, look, result);
   clock.charge(Stage::kRemoval);
 
-  if (insert) report.inserted = write(trace, points, pose);
+  if (insert) report.inserted = write(points, pose);
   erase(result, report);
   clock.charge(Stage::kMap);
 
@@ -130,18 +131,17 @@ ScanReport RhMap::Removal::finish() {
   return report;
 }
 
-ScanContext RhMap::Removal::contextOf(const octomap::pose6d& pose, ScanTrace& trace, const OcTreeKey& sensor,
-                                      const RangeImage& image) const {
+ScanContext RhMap::Removal::contextOf(const octomap::pose6d& pose, const OcTreeKey& sensor, const RangeImage& image) {
   ColumnGrid grid(regions_, sensor, config_.context.max_range, resolution_);
-  for (std::size_t i = 0; i < trace.columns.size(); ++i)
-    *grid.at(trace.columns[i].column->x, trace.columns[i].column->y) = static_cast<std::int32_t>(i);
-  if (config_.context.max_ring) findMaxRing(image, points_, regions_, grid, trace);
+  for (std::size_t i = 0; i < trace_.columns.size(); ++i)
+    *grid.at(trace_.columns[i].column->x, trace_.columns[i].column->y) = static_cast<std::int32_t>(i);
+  if (config_.context.max_ring) findMaxRing(image, points_, regions_, grid, trace_);
   std::vector<Context3d> regions;
-  if (config_.context.three_d) regions = findBulgeDented(image, points_, config_.context, regions_, grid, trace);
+  if (config_.context.three_d) regions = findBulgeDented(image, points_, config_.context, regions_, grid, trace_);
   std::shared_ptr<const Visibility> visibility;
   if (config_.visibility.enabled)
     visibility = std::make_shared<Visibility>(image, points_, config_.visibility, resolution_);
-  return {contextsOf(trace), std::move(regions), SensorView(tree_.keySpace(), pose), std::move(visibility)};
+  return {contextsOf(trace_), std::move(regions), SensorView(tree_.keySpace(), pose), std::move(visibility)};
 }
 
 void RhMap::Removal::lookAgain(const ScanContext& keyframe, bool protect, ScanReport& report) {
@@ -165,15 +165,14 @@ void RhMap::Removal::clearUp(std::span<const OcTreeKey> octants, int interval, c
 }
 
 /// The hit cubes that are in the map, into the tree: as OctoMap's updateNode for each. Returns how many there are.
-std::size_t RhMap::Removal::write(const ScanTrace& trace, const octomap::Pointcloud& points,
-                                  const octomap::pose6d& pose) {
+std::size_t RhMap::Removal::write(const octomap::Pointcloud& points, const octomap::pose6d& pose) {
   cells_.clear();
   const bool has_free = config_.carve || config_.removed == RemovedCubes::kFree;
   if (config_.carve) markFree(points, pose);
   std::size_t inserted = 0;
   const std::size_t octants = std::min<std::size_t>(8, regions_.octants());
   const bool are_whole = octants == 8 && !config_.carve;  // each of the tree's regions comes once
-  trace.forEachRegion([&](const Region& region) {
+  trace_.forEachRegion([&](const Region& region) {
     for (std::size_t first = 0; first < regions_.octants(); first += octants) {
       const std::uint64_t word = cell_word::fromKey(regions_.cornerOf(region, first));
       RegionMasks hits{};

@@ -31,11 +31,10 @@ class RhMap::Removal {
   ScanReport finish();
 
  private:
-  ScanContext contextOf(const octomap::pose6d& pose, ScanTrace& trace, const OcTreeKey& sensor,
-                        const RangeImage& image) const;
+  ScanContext contextOf(const octomap::pose6d& pose, const OcTreeKey& sensor, const RangeImage& image);
   void lookAgain(const ScanContext& keyframe, bool protect, ScanReport& report);
   void clearUp(std::span<const OcTreeKey> octants, int interval, const LookConfig& look, RemovalResult& result);
-  std::size_t write(const ScanTrace& trace, const octomap::Pointcloud& points, const octomap::pose6d& pose);
+  std::size_t write(const octomap::Pointcloud& points, const octomap::pose6d& pose);
   void forgetFree(const OcTreeKey& corner, std::uint64_t cubes);
   void markFree(const octomap::Pointcloud& points, const octomap::pose6d& pose);
   void refreshAbove(const OcTreeKey& cube);
@@ -55,6 +54,7 @@ class RhMap::Removal {
   // Of the scan at hand; kept for their memory.
   ScanPoints points_;
   ScanOctants octants_;
+  ScanTrace trace_;
   std::vector<OcTreeKey> changed_;  // octants that have lost cubes, by their lowest
   ScanMasks cells_;
 };

@@ -23,7 +23,7 @@ void mark(const Place& place, const HitOctant& hit, ScanTrace& trace) {
   Region& region = *place.region;
   if (region.scan != trace.scan) {
     region.scan = trace.scan;
-    region.hit_octants = 0;
+    region.hit_octants = region.fresh_octants = 0;
     trace.regions.push_back(&region);
   }
   region.hit_octants |= std::uint64_t{1} << place.o;
@@ -44,6 +44,7 @@ void insert(const Place& place, const HitOctant& hit, int firm) {
     octant.firm |= std::uint64_t{of.hits >= firm} << bit;
   });
   if (octant.fresh == 0) return;
+  place.region->fresh_octants |= std::uint64_t{1} << place.o;
   place.region->add(place.o, octant.fresh);
   const int corner = hit.corner()[2];
   const auto [bottom, top] = layersOf(octant.fresh);
@@ -73,9 +74,11 @@ ColumnGrid::ColumnGrid(const RegionMap& map, const OcTreeKey& sensor, double rea
       y0_((sensor[1] >> map.bits()) - half_),
       index_(static_cast<std::size_t>(side_) * static_cast<std::size_t>(side_), -1) {}
 
-ScanTrace traceScan(RegionMap& map, const ScanOctants& octants, const OcTreeKey& sensor, std::uint32_t scan,
-                    const TraceConfig& config) {
-  ScanTrace trace{.scan = scan, .columns = {}, .regions = {}};
+void traceScan(RegionMap& map, const ScanOctants& octants, const OcTreeKey& sensor, std::uint32_t scan,
+               const TraceConfig& config, ScanTrace& trace) {
+  trace.scan = scan;
+  trace.columns.clear();
+  trace.regions.clear();
   ColumnGrid grid(map, sensor, config.reach, config.resolution);
   const std::vector<HitOctant>& hits = octants.list();
   std::array<Place, kAhead> places;
@@ -112,7 +115,6 @@ ScanTrace traceScan(RegionMap& map, const ScanOctants& octants, const OcTreeKey&
           addToColumn(*place.region->column, hit, *index, trace);
     }
   }
-  return trace;
 }
 
 }  // namespace rhmap

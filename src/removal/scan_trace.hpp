@@ -70,9 +70,10 @@ struct TraceConfig {
   bool insert = true;       ///< puts the cubes into the map, and does not only mark what was hit
 };
 
-/// Marks the cubes of a scan in the regions: Octant::hit and, if they are to be inserted, what follows from it.
-ScanTrace traceScan(RegionMap& map, const ScanOctants& octants, const OcTreeKey& sensor, std::uint32_t scan,
-                    const TraceConfig& config);
+/// Marks the cubes of a scan in the regions: Octant::hit and, if they are to be inserted, what follows from it. `trace`
+/// may be that of another scan, whose memory it keeps.
+void traceScan(RegionMap& map, const ScanOctants& octants, const OcTreeKey& sensor, std::uint32_t scan,
+               const TraceConfig& config, ScanTrace& trace);
 
 /// The columns of a trace around the sensor, by position.
 class ColumnGrid {
