@@ -74,7 +74,7 @@ void FreeSpace::forEachTile(F&& visit, const Grids&... grids) {
   }
 }
 
-void FreeSpace::observe(const RegionMap& map, const ScanTrace& trace, const std::array<float, 3>& sensor) {
+void FreeSpace::observe(const ScanTrace& trace, const std::array<float, 3>& sensor) {
   std::array<int, 3> cell;
   for (std::size_t i = 0; i < 3; ++i) {
     from_[i] = (sensor[i] + 0.5F) / static_cast<float>(1 << shift_);
@@ -84,27 +84,27 @@ void FreeSpace::observe(const RegionMap& map, const ScanTrace& trace, const std:
   if (trace.scan % static_cast<std::uint32_t>(config_.interval) == 0) {
     VoidRays rays;
     crossed_.resetTo(hit_);
-    markHits(map, trace, &rays);
+    markHits(trace, &rays);
     followRays(from_, rays, hit_, crossed_);
     crossed_.closeGaps(hit_);
     update();
   } else {
-    markHits(map, trace, nullptr);
+    markHits(trace, nullptr);
     forgetHit();
   }
 }
 
 /// The hit cells, and one ray to each for those who want to follow them (not null).
-void FreeSpace::markHits(const RegionMap& map, const ScanTrace& trace, VoidRays* rays) {
+void FreeSpace::markHits(const ScanTrace& trace, VoidRays* rays) {
   const auto cells_per_metre = static_cast<float>(1 / width());
   const float reach = static_cast<float>(config_.max_range) * cells_per_metre;
   const float surface = static_cast<float>(config_.surface) * cells_per_metre;
-  trace.forEachHitOctant([&](const Region& region, std::size_t o, const Octant& octant) {
-    const OcTreeKey corner = map.cornerOf(region, o);
-    forEachCell(octant.hit, corner, shift_, [&](const OcTreeKey& cell, std::uint64_t hit) {
+  trace.forEachOctant([&](const TracedOctant& at) {
+    const Octant& octant = *at.octant;
+    forEachCell(octant.hit, at.corner, shift_, [&](const OcTreeKey& cell, std::uint64_t hit) {
       ends_.set(cell[0] >> shift_, cell[1] >> shift_, cell[2] >> shift_);
       hit_.set(cell[0] >> shift_, cell[1] >> shift_, cell[2] >> shift_);
-      const OcTreeKey cube = cubeOf(corner, std::countr_zero(hit));
+      const OcTreeKey cube = cubeOf(at.corner, std::countr_zero(hit));
       std::array<float, 3> to;
       float squared = 0;
       for (unsigned i = 0; i < 3; ++i) {

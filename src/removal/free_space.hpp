@@ -44,7 +44,7 @@ class FreeSpace {
   ~FreeSpace();
 
   /// Takes in a scan whose hits are marked. `sensor` in keys (a cube's centre is its key).
-  void observe(const RegionMap& map, const ScanTrace& trace, const std::array<float, 3>& sensor);
+  void observe(const ScanTrace& trace, const std::array<float, 3>& sensor);
 
   /// Whether a cell around the sensor is void, as of the last scan.
   bool isVoid(int x, int y, int z) const {
@@ -107,7 +107,7 @@ class FreeSpace {
   void openWindow(const std::array<int, 3>& cell);
   template <class F, class... Grids>
   void forEachTile(F&& visit, const Grids&... grids);
-  void markHits(const RegionMap& map, const ScanTrace& trace, VoidRays* rays);
+  void markHits(const ScanTrace& trace, VoidRays* rays);
   void fill(const CellGrid& cells);
   void forgetHit();
   void update();

@@ -23,24 +23,25 @@ MovingHits::MovingHits(const RemovalConfig& config, double cube)
 std::size_t MovingHits::reject(const RegionMap& map, const ScanTrace& trace, const FreeSpace& free_space,
                                std::vector<RemovedCubesOf>& removed) {
   rejected_from_.clear();
-  if (config_.look_back.enabled) lookBack(map, trace);
+  if (config_.look_back.enabled) lookBack(trace);
 
   // Seeds: cells with hits in the void, or with cubes that have come.
   const int shift = free_space.shift();
   seeds_.clear();
-  trace.forEachHitOctant([&](const Region& region, std::size_t o, const Octant& octant) {
+  trace.forEachOctant([&](const TracedOctant& at) {
+    const Octant& octant = *at.octant;
     std::uint64_t come = octant.appeared;
     if (come != 0) {
       const Neighbourhood around =
-          lookAround(map, map.cornerOf(region, o), kFarthestAround,
+          lookAround(map, at.corner, kFarthestAround,
                      [&](const Region& r, std::size_t n) { return r.isHitBy(trace.scan, n) ? r.octant(n).appeared : 0; });
       if (around.moving < least_come_ || !around.isMoving(config_.look_back.share)) come = 0;
     }
-    forEachCell(octant.hit, map.cornerOf(region, o), shift, [&](const OcTreeKey& corner, std::uint64_t hit) {
+    forEachCell(octant.hit, at.corner, shift, [&](const OcTreeKey& corner, std::uint64_t hit) {
       const Cell cell{corner[0] >> shift, corner[1] >> shift, corner[2] >> shift};
       const auto& [x, y, z] = cell;
       const bool is_void = config_.free_space.enabled && (hit & ~octant.ground) != 0 &&
-                           (free_space.isVoid(x, y, z) || (free_space.isOpen(x, y, z) && isNew(map, trace, region, o)));
+                           (free_space.isVoid(x, y, z) || (free_space.isOpen(x, y, z) && isNew(map, trace, at.corner)));
       if (is_void) {
         seeds_.push_back({cell, config_.free_space.growth});
       } else if ((come & hit) != 0) {
@@ -52,10 +53,10 @@ std::size_t MovingHits::reject(const RegionMap& map, const ScanTrace& trace, con
 
   growSeeds(free_space.ends());
   std::size_t rejected = 0;
-  trace.forEachHitOctant([&](Region& region, std::size_t o, Octant& octant) {
-    const OcTreeKey corner = map.cornerOf(region, o);
+  trace.forEachOctant([&](const TracedOctant& at) {
+    const Octant& octant = *at.octant;
     std::uint64_t out = 0;
-    forEachCell(octant.hit & octant.occupied & ~octant.safe, corner, shift,
+    forEachCell(octant.hit & octant.occupied & ~octant.safe, at.corner, shift,
                 [&](const OcTreeKey& cell, std::uint64_t hit) {
                   if (moving_.at(cell[0] >> shift, cell[1] >> shift, cell[2] >> shift)) out |= hit;
                 });
@@ -65,9 +66,9 @@ std::size_t MovingHits::reject(const RegionMap& map, const ScanTrace& trace, con
     });
     if (out == 0) return;
     rejected += static_cast<std::size_t>(std::popcount(out));
-    if (const std::uint64_t known = out & ~octant.fresh; known != 0) removed.push_back({corner, known, false});
-    region.remove(o, out);
-    rejected_from_.push_back(corner);
+    if (const std::uint64_t known = out & ~octant.fresh; known != 0) removed.push_back({at.corner, known, false});
+    at.region->remove(at.number, out);
+    rejected_from_.push_back(at.corner);
   });
   return rejected;
 }
@@ -94,9 +95,9 @@ void MovingHits::growSeeds(const CellGrid& ends) {
 }
 
 /// Whether much in and around an octant is new to the map and little is firm.
-bool MovingHits::isNew(const RegionMap& map, const ScanTrace& trace, const Region& region, std::size_t o) const {
+bool MovingHits::isNew(const RegionMap& map, const ScanTrace& trace, const OcTreeKey& corner) const {
   const Neighbourhood around =
-      lookAround(map, map.cornerOf(region, o), reach_, [&](const Region& r, std::size_t n) -> std::uint64_t {
+      lookAround(map, corner, reach_, [&](const Region& r, std::size_t n) -> std::uint64_t {
         return r.isHitBy(trace.scan, n) ? r.octant(n).fresh & ~r.octant(n).ground : 0;
       });
   return around.moving >= least_new_ && around.isMoving(config_.evidence.share);
@@ -104,14 +105,15 @@ bool MovingHits::isNew(const RegionMap& map, const ScanTrace& trace, const Regio
 
 /// Octant::appeared: what is new, not firm (where something stands), and seen through by more past scans than saw
 /// something there.
-void MovingHits::lookBack(const RegionMap& map, const ScanTrace& trace) {
+void MovingHits::lookBack(const ScanTrace& trace) {
   fresh_.clear();
   fresh_octants_.clear();
-  trace.forEachHitOctant([&](Region& region, std::size_t o, Octant& octant) {
+  trace.forEachOctant([&](const TracedOctant& at) {
+    const Octant& octant = *at.octant;
     const std::uint64_t cubes = octant.fresh & ~octant.ground & ~octant.firm;
     if (cubes == 0) return;
-    fresh_.push_back({map.cornerOf(region, o), cubes});
-    fresh_octants_.push_back(&octant);
+    fresh_.push_back({at.corner, cubes});
+    fresh_octants_.push_back(at.octant);
   });
   answers_.assign(fresh_.size(), {});
   looks_.resize(fresh_.size());

@@ -49,8 +49,8 @@ class MovingHits {
     Counters<8> seen, contrary;
   };
 
-  bool isNew(const RegionMap& map, const ScanTrace& trace, const Region& region, std::size_t o) const;
-  void lookBack(const RegionMap& map, const ScanTrace& trace);
+  bool isNew(const RegionMap& map, const ScanTrace& trace, const OcTreeKey& corner) const;
+  void lookBack(const ScanTrace& trace);
   bool isTooNear(const SensorView& view, const OcTreeKey& corner) const;
   int stepsFrom(const Cell& come, const FreeSpace& free_space) const;
   void growSeeds(const CellGrid& ends);

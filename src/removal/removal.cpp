@@ -89,8 +89,8 @@ ScanReport RhMap::Removal::process(const octomap::Pointcloud& points, const octo
   RemovalResult result;
   std::span<const OcTreeKey> rejected_from;
   const bool keeps_out = config_.free_space.enabled || config_.look_back.enabled;
-  if (insert && keeps_out) free_space_.observe(regions_, trace_, context.view.origin());
-  if (insert && config_.standing.enabled) noteStanding(regions_, trace_, free_space_, config_.standing);
+  if (insert && keeps_out) free_space_.observe(trace_, context.view.origin());
+  if (insert && config_.standing.enabled) noteStanding(trace_, free_space_, config_.standing);
   if (insert && keeps_out) {
     report.rejected = moving_hits_.reject(regions_, trace_, free_space_, result.removed);
     rejected_from = moving_hits_.rejectedFrom();

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
 #include <vector>
 
@@ -18,49 +19,53 @@ struct ScanColumn {
   bool bulge_dented = false;  ///< a point of P_sup or P_inf is in it
 };
 
-/// What a scan has touched.
-struct ScanTrace {
-  std::uint32_t scan = 0;           ///< its number, from 1
-  std::vector<ScanColumn> columns;  ///< as far as contexts reach
-  std::vector<Region*> regions;     ///< all with a hit
+/// An octant that a scan has hit, and where it is.
+struct TracedOctant {
+  Octant* octant = nullptr;
+  Region* region = nullptr;
+  OcTreeKey corner;          ///< its lowest cube
+  std::uint16_t number = 0;  ///< in the region
+};
 
-  /// Visits the regions. They lie all over the memory: their hit octants, and what else askFor(region, octant) asks
-  /// for, are asked for some time before they are needed.
-  template <class AskFor, class F>
-  void forEachRegion(AskFor&& askFor, F&& visit) const {
-    constexpr std::size_t kAhead = 10;
+/// What a scan has touched. It lies all over the memory: who visits it is given each thing some time after it was asked
+/// for.
+struct ScanTrace {
+  std::uint32_t scan = 0;             ///< its number, from 1
+  std::vector<ScanColumn> columns;    ///< as far as contexts reach
+  std::vector<Region*> regions;       ///< all with a hit
+  std::vector<TracedOctant> octants;  ///< all with a hit
+
+  /// Visits the regions, and has asked for their hit octants, too.
+  template <class F>
+  void forEachRegion(F&& visit) const {
     for (std::size_t i = 0; i < regions.size(); ++i) {
       if (i + 2 * kAhead < regions.size()) Region::prefetch(regions[i + 2 * kAhead]);
       if (i + kAhead < regions.size()) {
         const Region& soon = *regions[i + kAhead];
-        forEachBit(soon.hit_octants, [&](int o) {
-          const auto number = static_cast<std::size_t>(o);
-          __builtin_prefetch(&soon.octant(number));
-          askFor(soon, number);
-        });
+        forEachBit(soon.hit_octants, [&](int o) { __builtin_prefetch(&soon.octant(static_cast<std::size_t>(o))); });
       }
       visit(*regions[i]);
     }
   }
+
+  /// Visits the octants, and has asked for what askFor(octant) asks for.
+  template <class AskFor, class F>
+  void forEachOctant(AskFor&& askFor, F&& visit) const {
+    for (std::size_t i = 0; i < octants.size(); ++i) {
+      if (i + 2 * kAhead < octants.size()) {
+        __builtin_prefetch(octants[i + 2 * kAhead].octant);
+        askFor(*octants[i + 2 * kAhead].octant);
+      }
+      visit(octants[i]);
+    }
+  }
   template <class F>
-  void forEachRegion(F&& visit) const {
-    forEachRegion([](const Region&, std::size_t) {}, visit);
+  void forEachOctant(F&& visit) const {
+    forEachOctant([](const Octant&) {}, visit);
   }
 
-  /// Visits the octants with a hit: visit(region, number, octant).
-  template <class AskFor, class F>
-  void forEachHitOctant(AskFor&& askFor, F&& visit) const {
-    forEachRegion(askFor, [&](Region& region) {
-      forEachBit(region.hit_octants, [&](int o) {
-        const auto number = static_cast<std::size_t>(o);
-        visit(region, number, region.octant(number));
-      });
-    });
-  }
-  template <class F>
-  void forEachHitOctant(F&& visit) const {
-    forEachHitOctant([](const Region&, std::size_t) {}, visit);
-  }
+ private:
+  static constexpr std::size_t kAhead = 10;
 };
 
 struct TraceConfig {

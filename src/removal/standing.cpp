@@ -3,23 +3,22 @@
 
 namespace rhmap {
 
-void noteStanding(const RegionMap& map, const ScanTrace& trace, const FreeSpace& free_space,
-                  const StandingConfig& config) {
+void noteStanding(const ScanTrace& trace, const FreeSpace& free_space, const StandingConfig& config) {
   const int shift = free_space.shift();
-  const auto askFor = [](const Region& region, std::size_t o) __attribute__((always_inline)) {
-    __builtin_prefetch(&pastOf(region.octant(o)).first);
+  const auto askFor = [](const Octant& octant) __attribute__((always_inline)) {
+    __builtin_prefetch(&pastOf(octant).first);
   };
-  trace.forEachHitOctant(askFor, [&](const Region& region, std::size_t o, Octant& octant) {
+  trace.forEachOctant(askFor, [&](const TracedOctant& at) {
+    Octant& octant = *at.octant;
     OctantPast& past = pastOf(octant);
     if (past.first == 0) past.first = trace.scan;
-    const OcTreeKey corner = map.cornerOf(region, o);
     const auto scansOf = [&](const OcTreeKey& cell) -> std::uint8_t& {
       return past.scans[static_cast<std::size_t>(bitOf(cell)) / 8];
     };
-    forEachCell(octant.hit, corner, shift, [&](const OcTreeKey& cell, std::uint64_t) { countUp(scansOf(cell)); });
+    forEachCell(octant.hit, at.corner, shift, [&](const OcTreeKey& cell, std::uint64_t) { countUp(scansOf(cell)); });
     if (trace.scan - past.first < static_cast<std::uint32_t>(config.time)) return;
     const std::uint64_t cubes = octant.occupied & ~octant.firm & ~octant.doubted;
-    forEachCell(cubes, corner, shift, [&](const OcTreeKey& cell, std::uint64_t in_cell) {
+    forEachCell(cubes, at.corner, shift, [&](const OcTreeKey& cell, std::uint64_t in_cell) {
       const int scans = scansOf(cell);
       if (scans < config.scans) return;
       const double few = config.crossed * scans;

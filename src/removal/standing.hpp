@@ -10,7 +10,6 @@ namespace rhmap {
 
 /// Notes the cells of the void that a scan has hit. Of those where something stands, all cubes are firm: far away,
 /// scans hit a wall or a bush again and again and hardly ever the same cube of it.
-void noteStanding(const RegionMap& map, const ScanTrace& trace, const FreeSpace& free_space,
-                  const StandingConfig& config);
+void noteStanding(const ScanTrace& trace, const FreeSpace& free_space, const StandingConfig& config);
 
 }  // namespace rhmap
