@@ -80,7 +80,8 @@ void GroundEstimation::update(const RegionMap& map, const ScanTrace& trace) cons
   if (!config_.enabled) return;
   const auto columnAt = [&](std::size_t i) { return trace.columns[i].column; };
   const auto all = [](const Column&) { return true; };
-  visitColumns(trace.columns.size(), columnAt, all, [&](Column& column) {
+  const auto none = [](const Region&) { return std::uint64_t{0}; };  // of octants few are needed
+  visitColumns(trace.columns.size(), columnAt, all, none, [&](Column& column) {
     Region* lowest = column.lowest();
     if (lowest == nullptr) return;
     bool anew = lowest != column.base;

@@ -96,16 +96,19 @@ struct alignas(64) Column {
 };
 
 /// Visits the columns columnAt(0) ... columnAt(n - 1) that are `due`. They lie all over the memory: asks for them,
-/// their lists and their regions some time before they are needed.
-template <class ColumnAt, class Due, class F>
-void visitColumns(std::size_t n, ColumnAt&& columnAt, Due&& due, F&& visit) {
+/// their lists, their regions and of these the octants `needed` (a mask) some time before they are needed.
+template <class ColumnAt, class Due, class Needed, class F>
+void visitColumns(std::size_t n, ColumnAt&& columnAt, Due&& due, Needed&& needed, F&& visit) {
   constexpr std::size_t kAhead = 4;
   const auto ahead = [&](std::size_t i) -> const Column* { return i < n && due(*columnAt(i)) ? columnAt(i) : nullptr; };
   for (std::size_t i = 0; i < n; ++i) {
-    if (i + 3 * kAhead < n) __builtin_prefetch(columnAt(i + 3 * kAhead));
-    if (const Column* column = ahead(i + 2 * kAhead)) __builtin_prefetch(column->regions.data());
-    if (const Column* column = ahead(i + kAhead))
+    if (i + 4 * kAhead < n) __builtin_prefetch(columnAt(i + 4 * kAhead));
+    if (const Column* column = ahead(i + 3 * kAhead)) __builtin_prefetch(column->regions.data());
+    if (const Column* column = ahead(i + 2 * kAhead))
       for (const Region* region : column->regions) Region::prefetch(region);
+    if (const Column* column = ahead(i + kAhead))
+      for (const Region* region : column->regions)
+        forEachBit(needed(*region), [&](int o) { __builtin_prefetch(&region->octant(static_cast<std::size_t>(o))); });
     if (due(*columnAt(i))) visit(*columnAt(i));
   }
 }
@@ -175,11 +178,12 @@ class RegionMap {
   std::size_t numColumns() const { return columns_.size(); }
   std::size_t memoryUsage() const;
 
-  /// Those that are `due`, in the order in which they became known, which is much quicker than by hash.
+  /// Those that are `due`, in the order in which they became known, which is much quicker than by hash. Of their regions
+  /// the loose octants are likely to be needed.
   template <class Due, class F>
   void forEachColumn(Due&& due, F&& visit) const {
     const auto columnAt = [this](std::size_t i) { return in_order_[i]; };
-    visitColumns(in_order_.size(), columnAt, due, visit);
+    visitColumns(in_order_.size(), columnAt, due, [](const Region& region) { return region.loose_octants; }, visit);
   }
   template <class F>
   void forEachColumn(F&& visit) const {

@@ -9,10 +9,13 @@
 namespace rhmap {
 namespace {
 
+constexpr std::size_t kAhead = 8;  // doubts whose memory is asked for before they are judged
+
 /// Cubes of an octant that wait to be looked at; then those that the scan sees through, waiting for judgement.
 struct Doubt {
   Region* region;
-  std::size_t octant;
+  std::size_t number;
+  Octant* octant;
   std::uint64_t cubes;
   int misses;  // that are needed
 };
@@ -115,7 +118,7 @@ class ScanToMapRemoval {
     const bool all_ground = misses == 1 || turn % static_cast<std::uint32_t>(config_.evidence.ground_interval) == 0;
     forEachBit(region.loose_octants, [&](int number) {
       const auto o = static_cast<std::size_t>(number);
-      const Octant& octant = region.octant(o);
+      Octant& octant = region.octant(o);
       region.noteDoubts(o);
       std::uint64_t cubes = octant.occupied & ~octant.safe;
       // With nothing but the ratio to go by, all that is near the ground has to stay.
@@ -124,7 +127,7 @@ class ScanToMapRemoval {
       if (look_.protect && region.isHitBy(look_.scan, o)) cubes &= ~octant.hit;
       const OcTreeKey corner = map_.cornerOf(region, o);
       if (cubes == 0 || (octant.doubted == 0 && isHidden(corner, 4))) return;
-      doubts_.push_back({&region, o, cubes, misses});
+      doubts_.push_back({&region, o, &octant, cubes, misses});
       places_.push_back({corner, cubes});
     });
   }
@@ -151,11 +154,11 @@ class ScanToMapRemoval {
     }
     std::size_t kept = 0;
     for (std::size_t d = 0; d < doubts_.size(); ++d) {
+      if (d + kAhead < doubts_.size()) __builtin_prefetch(&pastOf(*doubts_[d + kAhead].octant));
       Doubt doubt = doubts_[d];
       const std::uint64_t filled = looks[d].filled, through = looks[d].seen_through;
       if ((filled | through) == 0) continue;
-      Region& region = *doubt.region;
-      Octant& octant = region.octant(doubt.octant);
+      Octant& octant = *doubt.octant;
       OctantCounts& counts = countsOf(octant);
       forEachBit(through, [&](int bit) { countUp(counts[static_cast<std::size_t>(bit)].misses); });
       forEachBit(filled & octant.doubted, [&](int bit) { counts[static_cast<std::size_t>(bit)].misses = 0; });
@@ -165,7 +168,7 @@ class ScanToMapRemoval {
         octant.firm |= past.filled.atLeast(static_cast<unsigned>(config_.evidence.filled));
       }
       octant.doubted = (octant.doubted & ~filled) | through;
-      region.noteDoubts(doubt.octant);
+      doubt.region->noteDoubts(doubt.number);
       if (through == 0) continue;
       if (doubt.misses == 1) result_.is_protected -= static_cast<std::size_t>(std::popcount(through));
       doubt.cubes = through;
@@ -179,7 +182,7 @@ class ScanToMapRemoval {
     const EvidenceConfig& evidence = config_.evidence;
     for (std::size_t d = 0; d < doubts_.size(); ++d) {
       const Doubt& doubt = doubts_[d];
-      const OctantCounts& counts = countsOf(doubt.region->octant(doubt.octant));
+      const OctantCounts& counts = countsOf(*doubt.octant);
       std::uint64_t seen = 0, due = 0, sure = 0;
       forEachBit(doubt.cubes, [&](int bit) {
         const auto [hits, misses] = counts[static_cast<std::size_t>(bit)];
@@ -196,15 +199,15 @@ class ScanToMapRemoval {
     }
     for (std::size_t d = 0; d < doubts_.size(); ++d) {
       const Doubt& doubt = doubts_[d];
-      gone[d] &= doubt.region->octant(doubt.octant).occupied;  // a region may have been looked at twice
+      gone[d] &= doubt.octant->occupied;  // a region may have been looked at twice
       if (gone[d] == 0) continue;
-      doubt.region->remove(doubt.octant, gone[d]);
-      result_.removed.push_back({map_.cornerOf(*doubt.region, doubt.octant), gone[d], scan_.visibility != nullptr});
+      doubt.region->remove(doubt.number, gone[d]);
+      result_.removed.push_back({map_.cornerOf(*doubt.region, doubt.number), gone[d], scan_.visibility != nullptr});
     }
   }
 
   Neighbourhood doubtedAround(const Doubt& doubt, int reach) const {
-    return lookAround(map_, map_.cornerOf(*doubt.region, doubt.octant), reach,
+    return lookAround(map_, map_.cornerOf(*doubt.region, doubt.number), reach,
                       [](const Region& region, std::size_t o) { return region.octant(o).doubted; });
   }
 
