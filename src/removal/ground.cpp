@@ -19,16 +19,54 @@ LocalCube localCube(std::size_t octant, int bit) {
   return {cube[0], cube[1], cube[2]};
 }
 
-/// Of the cubes that count: through their mean, normal to the direction of least spread; nothing if there are too few
-/// or it is steeper than allowed.
-template <class Counts>
-std::optional<Plane> principalPlane(std::span<const LocalCube> cubes, const GroundConfig& config, Counts&& counts) {
-  int n = 0, x = 0, y = 0, z = 0, xx = 0, xy = 0, xz = 0, yy = 0, yz = 0, zz = 0;
-  for (const LocalCube& c : cubes) {
-    if (!counts(c)) continue;
-    ++n, x += c.x, y += c.y, z += c.z;
-    xx += c.x * c.x, xy += c.x * c.y, xz += c.x * c.z, yy += c.y * c.y, yz += c.y * c.z, zz += c.z * c.z;
+/// The cubes of a region, each coordinate and each product of two in a list of its own, so that choosing some of them
+/// and summing these up is vector code.
+class CubeLists {
+ public:
+  explicit CubeLists(std::span<const LocalCube> cubes) : n_((cubes.size() + 7) / 8 * 8) {
+    for (std::size_t i = 0; i < cubes.size(); ++i) {
+      const LocalCube& c = cubes[i];
+      const std::array<int, kLists> all{1, c.x, c.y, c.z, c.x * c.x, c.x * c.y, c.x * c.z, c.y * c.y, c.y * c.z, c.z * c.z};
+      for (std::size_t k = 0; k < kLists; ++k) lists_[k][i] = static_cast<std::int16_t>(all[k]);
+    }
+    for (std::size_t i = cubes.size(); i < n_; ++i)
+      for (auto& list : lists_) list[i] = 0;
   }
+
+  /// Chooses the cubes for which counts(x, y, z) holds.
+  template <class Counts>
+  void choose(Counts&& counts) {
+    for (std::size_t i = 0; i < n_; ++i)
+      chosen_[i] = counts(static_cast<float>(lists_[1][i]), static_cast<float>(lists_[2][i]),
+                          static_cast<float>(lists_[3][i]))
+                       ? std::int16_t{1}
+                       : std::int16_t{0};
+  }
+
+  /// Of the chosen ones: how many; the sums of x, y, z; of xx, xy, xz, yy, yz, zz.
+  static constexpr std::size_t kLists = 10;
+  std::array<int, kLists> sums() const {
+    std::array<int, kLists> sums{};
+    for (std::size_t k = 0; k < kLists; ++k) {
+      int sum = 0;
+      for (std::size_t i = 0; i < n_; ++i) sum += chosen_[i] * lists_[k][i];
+      sums[k] = sum;
+    }
+    return sums;
+  }
+
+ private:
+  // Of the largest region, and a line of the cache, so that lists do not lie at the same place of all pages.
+  static constexpr std::size_t kMost = 16 * 16 * 16 + 32;
+  std::size_t n_;
+  std::array<std::int16_t, kMost> chosen_;
+  std::array<std::array<std::int16_t, kMost>, kLists> lists_;
+};
+
+/// Of the chosen cubes: through their mean, normal to the direction of least spread; nothing if there are too few or it
+/// is steeper than allowed.
+std::optional<Plane> principalPlane(const CubeLists& cubes, const GroundConfig& config) {
+  const auto [n, x, y, z, xx, xy, xz, yy, yz, zz] = cubes.sums();
   if (n < config.min_cubes) return std::nullopt;
   const Eigen::Vector3d mean = Eigen::Vector3d(x, y, z) / n;
   Eigen::Matrix3d covariance;
@@ -55,16 +93,17 @@ float heightOf(const Plane& plane, float size) { return (plane.d - (plane.n[0] +
 }  // namespace
 
 std::optional<Plane> fitGround(std::span<const LocalCube> cubes, const GroundConfig& config, double resolution) {
+  CubeLists lists(cubes);
   double mean = 0;
   for (const LocalCube& c : cubes) mean += c.z;
   mean /= std::max<double>(1, static_cast<double>(cubes.size()));
   // Not above the mean, where the paper has "smaller than": a flat region of one layer has no smaller ones.
-  auto plane = principalPlane(cubes, config, [&](const LocalCube& c) { return c.z <= mean; });
+  lists.choose([highest = static_cast<float>(std::floor(mean))](float, float, float z) { return z <= highest; });
+  auto plane = principalPlane(lists, config);
   const auto r_gro = static_cast<float>(config.r_gro / resolution);
   for (int i = 1; plane && i < config.iterations; ++i) {
-    plane = principalPlane(cubes, config, [&, last = *plane](const LocalCube& c) {
-      return std::fabs(last.above(static_cast<float>(c.x), static_cast<float>(c.y), static_cast<float>(c.z))) < r_gro;
-    });
+    lists.choose([&, last = *plane](float x, float y, float z) { return std::fabs(last.above(x, y, z)) < r_gro; });
+    plane = principalPlane(lists, config);
   }
   return plane;
 }
