@@ -11,16 +11,22 @@ namespace {
 constexpr std::size_t kAhead = 32;  // runs that are looked up together
 
 /// The next run of points that follow each other in the scan and fall in one octant, from point `k` on, which moves on.
-HitOctant nextRun(const ScanPoints& points, float reach, std::size_t& k) {
-  HitOctant run{.name = points.cell[k] >> 6};
+/// Written field by field: GCC puts a value to return together in memory, and waits for it there.
+void nextRun(const ScanPoints& points, float reach, std::size_t& k, HitOctant& run) {
+  const std::uint64_t name = points.cell[k] >> 6;
+  std::uint64_t cubes = 0, reached = 0;
+  int n = 0;
   do {
     const std::uint64_t cube = maskOf(static_cast<int>(points.cell[k] & 63));
     const bool is_reached = points.range[k] <= reach;
-    run.cubes |= cube;
-    run.reached |= is_reached ? cube : 0;
-    run.points += is_reached;
-  } while (++k < points.size() && points.cell[k] >> 6 == run.name);
-  return run;
+    cubes |= cube;
+    reached |= is_reached ? cube : 0;
+    n += is_reached;
+  } while (++k < points.size() && points.cell[k] >> 6 == name);
+  run.name = name;
+  run.cubes = cubes;
+  run.reached = reached;
+  run.points = n;
 }
 
 }  // namespace
@@ -33,7 +39,7 @@ void ScanOctants::gather(const ScanPoints& points, double reach) {
   for (std::size_t k = 0; k < points.size();) {
     std::size_t n = 0;
     for (; n < kAhead && k < points.size(); ++n) {
-      runs[n] = nextRun(points, static_cast<float>(reach), k);
+      nextRun(points, static_cast<float>(reach), k, runs[n]);
       index_.prefetch(runs[n].name);
     }
     for (std::size_t i = 0; i < n; ++i) {
