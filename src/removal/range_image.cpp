@@ -2,6 +2,7 @@
 #include "range_image.hpp"
 
 #include <algorithm>
+#include <array>
 #include <numeric>
 
 #include "pixels.hpp"
@@ -118,16 +119,16 @@ Projection measureProjection(const RangeImageConfig& config, const ScanPoints& s
 
 RangeImage::RangeImage(const Projection& projection, const ScanPoints& scan) : projection_(projection) {
   const std::size_t pixels = static_cast<std::size_t>(projection.rows) * static_cast<std::size_t>(projection.columns);
-  ranges_.assign(pixels, kEmpty);
-  points_.assign(pixels, -1);
-  std::vector<std::int32_t> pixel(scan.size());
-  pixelsOf(projection, scan.x.data(), scan.y.data(), scan.z.data(), scan.size(), pixel.data());
-  for (std::size_t k = 0; k < scan.size(); ++k) {
-    if (pixel[k] < 0) continue;
-    const auto at = static_cast<std::size_t>(pixel[k]);
-    if (scan.range[k] < ranges_[at]) {
-      ranges_[at] = scan.range[k];
-      points_[at] = static_cast<std::int32_t>(k);
+  nearest_.assign(pixels, word(kEmpty, -1));
+  constexpr std::size_t kBatch = 1024;
+  std::array<std::int32_t, kBatch> pixel;
+  for (std::size_t first = 0; first < scan.size(); first += kBatch) {
+    const std::size_t n = std::min(kBatch, scan.size() - first);
+    pixelsOf(projection, &scan.x[first], &scan.y[first], &scan.z[first], n, pixel.data());
+    for (std::size_t i = 0; i < n; ++i) {
+      if (pixel[i] < 0) continue;
+      std::uint64_t& nearest = nearest_[static_cast<std::size_t>(pixel[i])];
+      nearest = std::min(nearest, word(scan.range[first + i], static_cast<std::int32_t>(first + i)));
     }
   }
 }

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <bit>
 #include <cstddef>
 #include <cstdint>
 #include <limits>
@@ -49,26 +50,29 @@ class RangeImage {
   RangeImage(const Projection& projection, const ScanPoints& scan);
 
   const Projection& projection() const { return projection_; }
-  bool empty() const { return ranges_.empty(); }
 
-  /// Row by row, from the top; empty pixels are kEmpty.
-  const std::vector<float>& ranges() const { return ranges_; }
-  /// The points of the scan that the pixels show; below 0: none.
-  const std::vector<std::int32_t>& points() const { return points_; }
-
-  float at(int row, int column) const { return ranges_[index(row, column)]; }
+  /// Pixels, row by row, from the top.
+  std::size_t size() const { return nearest_.size(); }
+  /// kEmpty if a pixel shows nothing.
+  float range(std::size_t pixel) const { return std::bit_cast<float>(static_cast<std::uint32_t>(nearest_[pixel] >> 32)); }
   /// The point of the scan that a pixel shows; below 0: none.
-  std::int32_t pointAt(int row, int column) const { return points_[index(row, column)]; }
+  std::int32_t point(std::size_t pixel) const { return static_cast<std::int32_t>(nearest_[pixel]); }
+
+  float at(int row, int column) const { return range(index(row, column)); }
+  std::int32_t pointAt(int row, int column) const { return point(index(row, column)); }
 
  private:
+  /// As one word, of which the smaller is the nearer: of equally near points the first.
+  static std::uint64_t word(float range, std::int32_t point) {
+    return std::uint64_t{std::bit_cast<std::uint32_t>(range)} << 32 | static_cast<std::uint32_t>(point);
+  }
   std::size_t index(int row, int column) const {
     return static_cast<std::size_t>(row) * static_cast<std::size_t>(projection_.columns) +
            static_cast<std::size_t>(column);
   }
 
   Projection projection_;
-  std::vector<float> ranges_;
-  std::vector<std::int32_t> points_;
+  std::vector<std::uint64_t> nearest_;  // word() of each pixel
 };
 
 }  // namespace rhmap

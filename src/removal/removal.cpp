@@ -132,12 +132,14 @@ ScanReport RhMap::Removal::finish() {
 }
 
 ScanContext RhMap::Removal::contextOf(const octomap::pose6d& pose, const OcTreeKey& sensor, const RangeImage& image) {
-  ColumnGrid grid(regions_, sensor, config_.context.max_range, resolution_);
-  for (std::size_t i = 0; i < trace_.columns.size(); ++i)
-    *grid.at(trace_.columns[i].column->x, trace_.columns[i].column->y) = static_cast<std::int32_t>(i);
-  if (config_.context.max_ring) findMaxRing(image, points_, regions_, grid, trace_);
   std::vector<Context3d> regions;
-  if (config_.context.three_d) regions = findBulgeDented(image, points_, config_.context, regions_, grid, trace_);
+  if (config_.context.max_ring || config_.context.three_d) {
+    ColumnGrid grid(regions_, sensor, config_.context.max_range, resolution_);
+    for (std::size_t i = 0; i < trace_.columns.size(); ++i)
+      *grid.at(trace_.columns[i].column->x, trace_.columns[i].column->y) = static_cast<std::int32_t>(i);
+    if (config_.context.max_ring) findMaxRing(image, points_, regions_, grid, trace_);
+    if (config_.context.three_d) regions = findBulgeDented(image, points_, config_.context, regions_, grid, trace_);
+  }
   std::shared_ptr<const Visibility> visibility;
   if (config_.visibility.enabled)
     visibility = std::make_shared<Visibility>(image, points_, config_.visibility, resolution_);

@@ -52,8 +52,8 @@ SensorView::SensorView(const KeySpace& keys, const octomap::pose6d& pose) {
 
 Visibility::Visibility(const RangeImage& image, const ScanPoints& scan, const VisibilityConfig& config, double cube)
     : projection_(image.projection()),
-      ranges_(image.ranges()),
-      points_(ranges_.size()),
+      ranges_(image.size()),
+      points_(image.size()),
       behind_(static_cast<float>(config.behind)),
       before_(static_cast<float>(config.before)),
       aside_(static_cast<float>(config.aside)),
@@ -65,8 +65,9 @@ Visibility::Visibility(const RangeImage& image, const ScanPoints& scan, const Vi
       skim_from_(static_cast<float>(config.skim_from)),
       edge_(static_cast<float>(1 + config.edge_share)),
       least_up_(config.window) {
-  for (std::size_t i = 0; i < points_.size(); ++i) {
-    if (const std::int32_t k = image.points()[i]; k >= 0) {
+  for (std::size_t i = 0; i < image.size(); ++i) {
+    ranges_[i] = image.range(i);
+    if (const std::int32_t k = image.point(i); k >= 0) {
       const auto at = static_cast<std::size_t>(k);
       points_[i] = {scan.x[at], scan.y[at], scan.z[at]};
     }

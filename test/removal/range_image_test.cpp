@@ -88,14 +88,14 @@ TEST(RangeImage, ShowsTheNearestPointOfAPixel) {
   const ScanPoints scan = test::scanOf(cloud);
   const RangeImage image(measureProjection({.rows = 16, .columns = 90, .fov_up = 10, .fov_down = -10}, scan), scan);
   int shown = 0;
-  for (std::size_t i = 0; i < image.ranges().size(); ++i) {
-    if (image.points()[i] < 0) {
-      EXPECT_EQ(image.ranges()[i], RangeImage::kEmpty);
+  for (std::size_t i = 0; i < image.size(); ++i) {
+    if (image.point(i) < 0) {
+      EXPECT_EQ(image.range(i), RangeImage::kEmpty);
       continue;
     }
     ++shown;
-    EXPECT_EQ(image.points()[i], 1);
-    EXPECT_NEAR(image.ranges()[i], 10, 1e-4);
+    EXPECT_EQ(image.point(i), 1);
+    EXPECT_NEAR(image.range(i), 10, 1e-4);
   }
   EXPECT_EQ(shown, 1);
 }
@@ -131,7 +131,7 @@ TEST(RangeImage, LeavesOutWhatIsAboveOrBelowItsFieldOfView) {
   cloud.push_back(10, 0, -5);
   const ScanPoints scan = test::scanOf(cloud);
   const RangeImage image(measureProjection({.rows = 16, .columns = 90, .fov_up = 10, .fov_down = -10}, scan), scan);
-  for (const std::int32_t k : image.points()) EXPECT_LT(k, 0);
+  for (std::size_t i = 0; i < image.size(); ++i) EXPECT_LT(image.point(i), 0);
 }
 
 TEST(RangeImage, MeetsItselfBehindTheSensor) {
