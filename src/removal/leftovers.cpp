@@ -63,9 +63,9 @@ class LooseOctants {
 };
 
 /// Of some cubes, those that scans are known to have hit, and not just read from the tree.
-std::uint64_t knownHits(const OctantCounts& counts, std::uint64_t cubes) {
+std::uint64_t knownHits(const Tally& hits, std::uint64_t cubes) {
   std::uint64_t known = 0;
-  forEachBit(cubes, [&](int bit) { known |= std::uint64_t{counts[static_cast<std::size_t>(bit)].hits > 0} << bit; });
+  forEachBit(cubes, [&](int bit) { known |= std::uint64_t{hits[static_cast<std::size_t>(bit)] > 0} << bit; });
   return known;
 }
 
@@ -86,7 +86,7 @@ void removeLeftovers(const RegionMap& map, std::span<const OcTreeKey> changed, i
     return near.moving < least || !near.isMoving(config.share, config.others);
   });
   for (const LooseOctant& octant : octants) {  // all were found before any goes
-    const std::uint64_t cubes = knownHits(countsOf(octant.region->octant(octant.octant)), octant.cubes);
+    const std::uint64_t cubes = knownHits(countsOf(octant.region->octant(octant.octant)).hits, octant.cubes);
     if (cubes == 0) continue;
     octant.region->remove(octant.octant, cubes);
     result.removed.push_back({map.cornerOf(*octant.region, octant.octant), cubes, false});

@@ -62,7 +62,7 @@ std::size_t MovingHits::reject(const RegionMap& map, const ScanTrace& trace, con
                 });
     if (out == 0) return;
     forEachBit(out, [&](int bit) {
-      if (countsOf(octant)[static_cast<std::size_t>(bit)].hits > config_.free_space.known) out &= ~maskOf(bit);
+      if (countsOf(octant).hits[static_cast<std::size_t>(bit)] > config_.free_space.known) out &= ~maskOf(bit);
     });
     if (out == 0) return;
     rejected += static_cast<std::size_t>(std::popcount(out));

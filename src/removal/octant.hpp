@@ -9,6 +9,7 @@
 
 #include "cell_counters.hpp"
 #include "rhmap/core/key.hpp"
+#include "tally.hpp"
 
 namespace rhmap {
 
@@ -36,12 +37,11 @@ struct CubesAt {
   std::uint64_t cubes;
 };
 
-/// What is counted of a cube, up to 255. Apart from the masks, which are read far more often.
-struct CubeCounts {
-  std::uint8_t hits = 0;    ///< scans that have hit it
-  std::uint8_t misses = 0;  ///< scans that have seen through it since its last hit
+/// What is counted of an octant's cubes. Apart from the masks, which are read far more often.
+struct OctantCounts {
+  Tally hits{};    ///< scans that have hit a cube
+  Tally misses{};  ///< scans that have seen through it since its last hit; of none that is not doubted
 };
-using OctantCounts = std::array<CubeCounts, 64>;
 
 /// What else is remembered of an octant's cubes.
 struct OctantPast {
@@ -50,9 +50,6 @@ struct OctantPast {
   std::uint32_t first = 0;              ///< the first scan that has hit the octant; 0: none
   std::array<std::uint8_t, 8> scans{};  ///< scans that have hit each of its cells of the void, up to 255
 };
-
-/// One more, up to 255.
-inline void countUp(std::uint8_t& counter) { counter = static_cast<std::uint8_t>(counter + (counter < 255)); }
 
 /// Bits 0 to 3 of a key, three places apart.
 inline constexpr std::array<std::uint16_t, 16> kSpread = [] {

@@ -34,7 +34,9 @@ void Region::remove(std::size_t o, std::uint64_t old_cubes) {
   OctantPast& past = pastOf(from);
   past.gone |= old_cubes;
   past.filled.reset(old_cubes);
-  forEachBit(old_cubes, [&](int bit) { countsOf(from)[static_cast<std::size_t>(bit)] = {}; });
+  forEachBit(old_cubes, [&, &counts = countsOf(from)](int bit) {
+    counts.hits[static_cast<std::size_t>(bit)] = counts.misses[static_cast<std::size_t>(bit)] = 0;
+  });
 }
 
 RegionMap::RegionMap(int size, Reader read)

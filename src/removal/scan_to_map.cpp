@@ -160,8 +160,8 @@ class ScanToMapRemoval {
       if ((filled | through) == 0) continue;
       Octant& octant = *doubt.octant;
       OctantCounts& counts = countsOf(octant);
-      forEachBit(through, [&](int bit) { countUp(counts[static_cast<std::size_t>(bit)].misses); });
-      forEachBit(filled & octant.doubted, [&](int bit) { counts[static_cast<std::size_t>(bit)].misses = 0; });
+      forEachBit(through, [&](int bit) { countUp(counts.misses[static_cast<std::size_t>(bit)]); });
+      forEachBit(filled & octant.doubted, [&](int bit) { counts.misses[static_cast<std::size_t>(bit)] = 0; });
       if (const std::uint64_t loose = filled & ~octant.firm; loose != 0) {
         OctantPast& past = pastOf(octant);
         past.filled.countUp(loose);
@@ -185,7 +185,7 @@ class ScanToMapRemoval {
       const OctantCounts& counts = countsOf(*doubt.octant);
       std::uint64_t seen = 0, due = 0, sure = 0;
       forEachBit(doubt.cubes, [&](int bit) {
-        const auto [hits, misses] = counts[static_cast<std::size_t>(bit)];
+        const int hits = counts.hits[static_cast<std::size_t>(bit)], misses = counts.misses[static_cast<std::size_t>(bit)];
         if (look_.revert_hits > 0 && hits >= look_.revert_hits) return;
         seen |= maskOf(bit);
         if (misses >= doubt.misses) due |= maskOf(bit);

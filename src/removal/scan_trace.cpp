@@ -29,13 +29,9 @@ void insert(const TracedOctant& at, int firm) {
   Octant& octant = *at.octant;
   OctantCounts& counts = countsOf(octant);
   octant.fresh = octant.hit & ~octant.occupied;
+  forEachBit(octant.doubted & octant.hit, [&](int bit) { counts.misses[static_cast<std::size_t>(bit)] = 0; });
   octant.doubted &= ~octant.hit;
-  forEachBit(octant.hit, [&](int bit) {
-    CubeCounts& of = counts[static_cast<std::size_t>(bit)];
-    countUp(of.hits);
-    of.misses = 0;
-    octant.firm |= std::uint64_t{of.hits >= firm} << bit;
-  });
+  octant.firm |= countUp(counts.hits, octant.hit, firm);
   if (octant.fresh == 0) return;
   at.region->fresh_octants |= std::uint64_t{1} << at.number;
   at.region->add(at.number, octant.fresh);
@@ -96,8 +92,7 @@ void traceScan(RegionMap& map, const ScanOctants& octants, const OcTreeKey& sens
       at.octant = &map.getOrCreate(*at.region, at.number);
       __builtin_prefetch(at.octant);
       __builtin_prefetch(at.region->column);
-      __builtin_prefetch(&countsOf(*at.octant).front());
-      __builtin_prefetch(&countsOf(*at.octant).back());
+      __builtin_prefetch(&countsOf(*at.octant).hits);
     }
     for (std::size_t i = 0; i < n; ++i) {
       const TracedOctant& at = places[i];

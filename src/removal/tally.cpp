@@ -1,0 +1,47 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "tally.hpp"
+
+#undef HWY_TARGET_INCLUDE
+#define HWY_TARGET_INCLUDE "tally.cpp"
+#include <hwy/foreach_target.h>  // compiles this file once for every instruction set
+#include <hwy/highway.h>
+
+#include <bit>
+
+HWY_BEFORE_NAMESPACE();
+namespace rhmap::HWY_NAMESPACE {
+namespace hn = hwy::HWY_NAMESPACE;
+
+using U8 = hn::CappedTag<std::uint8_t, 64>;
+
+std::uint64_t CountUp(std::uint8_t* tally, std::uint64_t cubes, std::uint8_t enough) {
+  const U8 d;
+  std::uint8_t bits[16] = {};  // as many bytes as are read from any of the first eight on
+  for (std::size_t byte = 0; byte < 8; ++byte) bits[byte] = static_cast<std::uint8_t>(cubes >> 8 * byte);
+  std::uint8_t reached[16] = {};
+  for (std::size_t i = 0; i < 64; i += hn::Lanes(d)) {
+    const auto counted = hn::LoadMaskBits(d, bits + i / 8);
+    const auto before = hn::LoadU(d, tally + i);
+    const auto after = hn::SaturatedAdd(before, hn::IfThenElseZero(counted, hn::Set(d, 1)));
+    hn::StoreU(after, d, tally + i);
+    hn::StoreMaskBits(d, hn::And(counted, hn::Eq(hn::Max(after, hn::Set(d, enough)), after)), reached + i / 8);
+  }
+  std::uint64_t result = 0;
+  for (std::size_t byte = 0; byte < 8; ++byte) result |= std::uint64_t{reached[byte]} << 8 * byte;
+  return result;
+}
+
+}  // namespace rhmap::HWY_NAMESPACE
+HWY_AFTER_NAMESPACE();
+
+#if HWY_ONCE
+namespace rhmap {
+
+HWY_EXPORT(CountUp);
+
+std::uint64_t countUp(Tally& tally, std::uint64_t cubes, int enough) {
+  return HWY_DYNAMIC_DISPATCH(CountUp)(tally.data(), cubes, static_cast<std::uint8_t>(enough));
+}
+
+}  // namespace rhmap
+#endif
