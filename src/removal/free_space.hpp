@@ -60,6 +60,12 @@ class FreeSpace {
     const unsigned followed = std::min(static_cast<unsigned>(scans / config_.interval) + 1, kMostCrossings);
     return holds(x, y, z, [followed](const auto& column) { return column.crossings.atLeast(followed); });
   }
+  /// Asks for what is known of a cell around the sensor (see BlockIndex::prefetch).
+  [[gnu::always_inline]] void prefetch(int x, int y) const {
+    x -= ends_.x0(), y -= ends_.y0();
+    if (x < 0 || y < 0 || x >= ends_.side() || y >= ends_.side()) return;
+    if (const Tile* tile = tileAt(x, y)) __builtin_prefetch(&columnOf(*tile, x, y));
+  }
   /// The cells that the last scan has hit.
   const CellGrid& ends() const { return ends_; }
   /// From the sensor to the middle of a column of cells [m].
@@ -93,14 +99,21 @@ class FreeSpace {
 
     void moveTo(int z);
   };
+  /// By place in the window; null if nothing is known there.
+  const Tile* tileAt(int x, int y) const {
+    return window_[static_cast<std::size_t>((y >> 3) * (ends_.side() >> 3) + (x >> 3))];
+  }
+  static const CellColumn& columnOf(const Tile& tile, int x, int y) {
+    return tile.columns[static_cast<std::size_t>((y & 7) * 8 + (x & 7))];
+  }
   /// What cellsOf(column) says of a cell around the sensor; no of others.
   template <class CellsOf>
   bool holds(int x, int y, int z, CellsOf&& cellsOf) const {
     x -= ends_.x0(), y -= ends_.y0();
     if (x < 0 || y < 0 || x >= ends_.side() || y >= ends_.side()) return false;
-    const Tile* tile = window_[static_cast<std::size_t>((y >> 3) * (ends_.side() >> 3) + (x >> 3))];
+    const Tile* tile = tileAt(x, y);
     if (tile == nullptr || z < tile->z0 || z >= tile->z0 + 64) return false;
-    return (cellsOf(tile->columns[static_cast<std::size_t>((y & 7) * 8 + (x & 7))]) >> (z - tile->z0) & 1) != 0;
+    return (cellsOf(columnOf(*tile, x, y)) >> (z - tile->z0) & 1) != 0;
   }
   /// Of a cell [m].
   double width() const { return cube_ * (1 << shift_); }

@@ -28,7 +28,10 @@ std::size_t MovingHits::reject(const RegionMap& map, const ScanTrace& trace, con
   // Seeds: cells with hits in the void, or with cubes that have come.
   const int shift = free_space.shift();
   seeds_.clear();
-  trace.forEachOctant([&](const TracedOctant& at) {
+  const auto askFor = [&](const TracedOctant& at) __attribute__((always_inline)) {
+    free_space.prefetch(at.corner[0] >> shift, at.corner[1] >> shift);
+  };
+  trace.forEachOctant(askFor, [&](const TracedOctant& at) {
     const Octant& octant = *at.octant;
     std::uint64_t come = octant.appeared;
     if (come != 0) {

@@ -48,20 +48,20 @@ struct ScanTrace {
     }
   }
 
-  /// Visits the octants, and has asked for what askFor(octant) asks for.
+  /// Visits the octants, and has asked for what askFor(TracedOctant) asks for.
   template <class AskFor, class F>
   void forEachOctant(AskFor&& askFor, F&& visit) const {
     for (std::size_t i = 0; i < octants.size(); ++i) {
       if (i + 2 * kAhead < octants.size()) {
         __builtin_prefetch(octants[i + 2 * kAhead].octant);
-        askFor(*octants[i + 2 * kAhead].octant);
+        askFor(octants[i + 2 * kAhead]);
       }
       visit(octants[i]);
     }
   }
   template <class F>
   void forEachOctant(F&& visit) const {
-    forEachOctant([](const Octant&) {}, visit);
+    forEachOctant([](const TracedOctant&) {}, visit);
   }
 
  private:

@@ -5,8 +5,8 @@ namespace rhmap {
 
 void noteStanding(const ScanTrace& trace, const FreeSpace& free_space, const StandingConfig& config) {
   const int shift = free_space.shift();
-  const auto askFor = [](const Octant& octant) __attribute__((always_inline)) {
-    __builtin_prefetch(&pastOf(octant).first);
+  const auto askFor = [](const TracedOctant& at) __attribute__((always_inline)) {
+    __builtin_prefetch(&pastOf(*at.octant).first);
   };
   trace.forEachOctant(askFor, [&](const TracedOctant& at) {
     Octant& octant = *at.octant;
