@@ -81,12 +81,6 @@ std::optional<Plane> principalPlane(const CubeLists& cubes, const GroundConfig& 
                .d = static_cast<float>(normal.dot(mean))};
 }
 
-/// A column of which the ground is known; null if that is not so.
-const Column* groundAt(const RegionMap& map, int x, int y) {
-  const Column* column = map.find(x, y);
-  return column != nullptr && column->has_ground ? column : nullptr;
-}
-
 /// In cubes, of a plane in its region: in the middle, from the region's lowest cube.
 float heightOf(const Plane& plane, float size) { return (plane.d - (plane.n[0] + plane.n[1]) * size / 2) / plane.n[2]; }
 
@@ -125,7 +119,7 @@ void GroundEstimation::update(const RegionMap& map, const ScanTrace& trace) cons
     if (lowest == nullptr) return;
     bool anew = lowest != column.base;
     if (anew) setBase(column, lowest);
-    if (lowest->scan == trace.scan && isCandidate(map, column)) {
+    if (lowest->scan == trace.scan && isCandidate(column)) {
       fit(map, column);
       anew = true;
     }
@@ -154,17 +148,14 @@ void GroundEstimation::setBase(Column& column, Region* lowest) const {
 
 /// Eq. (4): the lowest region of its column; with cubes that no fit has seen yet, so that each region is fitted a few
 /// times only; and with occupied neighbours, as noise has none.
-bool GroundEstimation::isCandidate(const RegionMap& map, const Column& column) const {
+bool GroundEstimation::isCandidate(const Column& column) const {
   const Region& region = *column.base;
   const int cubes = region.cubes;
   if (cubes < config_.min_cubes || cubes < column.at_fit * (1 + config_.min_growth)) return false;
-  for (int dx = -1; dx <= 1; ++dx) {
-    for (int dy = -1; dy <= 1; ++dy) {
-      const Column* beside = dx == 0 && dy == 0 ? nullptr : map.find(region.x + dx, region.y + dy);
-      if (beside == nullptr) continue;
-      for (const Region* other : beside->regions)
-        if (std::abs(int{other->z} - int{region.z}) <= 1 && other->cubes > 0) return true;
-    }
+  for (const Column* beside : column.around) {
+    if (beside == nullptr) continue;
+    for (const Region* other : beside->regions)
+      if (std::abs(int{other->z} - int{region.z}) <= 1 && other->cubes > 0) return true;
   }
   return false;
 }
@@ -176,8 +167,8 @@ bool GroundEstimation::standsOut(const RegionMap& map, const Column& column, con
   const float z = heightOf(plane, size);
   for (int dx = -1; dx <= 1; ++dx) {
     for (int dy = -1; dy <= 1; ++dy) {
-      const Column* other = dx == 0 && dy == 0 ? nullptr : groundAt(map, column.x + dx, column.y + dy);
-      if (other == nullptr) continue;
+      const Column* other = dx == 0 && dy == 0 ? nullptr : column.near(dx, dy);
+      if (other == nullptr || !other->has_ground) continue;
       const float above = other->ground.above(half - static_cast<float>(dx) * size, half - static_cast<float>(dy) * size,
                                               z + static_cast<float>(int{column.base_z} - int{other->base_z}) * size);
       if (static_cast<double>(above) * resolution_ > config_.max_step) return true;
@@ -199,8 +190,8 @@ bool GroundEstimation::isRaised(const RegionMap& map, const Column& column, cons
   int below = 0, level = 0, above = 0;
   for (int i = -kEach; i <= kEach; ++i) {
     for (int j = -kEach; j <= kEach; ++j) {
-      const Column* other = i == 0 && j == 0 ? nullptr : groundAt(map, column.x + i * apart, column.y + j * apart);
-      if (other == nullptr) continue;
+      const Column* other = i == 0 && j == 0 ? nullptr : map.find(column.x + i * apart, column.y + j * apart);
+      if (other == nullptr || !other->has_ground) continue;
       const double step =
           double{z - heightOf(other->ground, size) - static_cast<float>(other->base_z) * size} * resolution_;
       const double least = config_.raised + config_.rise * width * apart * std::hypot(i, j);
@@ -246,7 +237,7 @@ void GroundEstimation::mark(const RegionMap& map, const Column& column, Region& 
   if (is_base || config_.across_regions) consider(&column);
   if (config_.across_regions && !(is_base && column.has_ground)) {
     for (const auto& [dx, dy] : {std::pair(-1, 0), std::pair(1, 0), std::pair(0, -1), std::pair(0, 1)})
-      consider(groundAt(map, region.x + dx, region.y + dy));
+      consider(column.near(dx, dy));
   }
   if (only_fresh && n == 0) return;
   forEachBit(only_fresh ? region.fresh_octants : region.known_octants, [&](int number) {

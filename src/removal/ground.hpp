@@ -30,7 +30,7 @@ class GroundEstimation {
 
  private:
   void setBase(Column& column, Region* lowest) const;
-  bool isCandidate(const RegionMap& map, const Column& column) const;
+  bool isCandidate(const Column& column) const;
   bool standsOut(const RegionMap& map, const Column& column, const Plane& plane) const;
   bool isRaised(const RegionMap& map, const Column& column, const Plane& plane) const;
   void fit(const RegionMap& map, Column& column) const;

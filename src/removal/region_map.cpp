@@ -64,6 +64,14 @@ Column& RegionMap::getOrCreate(key_type x, key_type y) {
   auto* column = new Column{.x = x, .y = y, .regions = {}, .ground = {}};
   columns_.insert(nameOf(x, y), column);
   in_order_.push_back(column);
+  for (int dx = -1; dx <= 1; ++dx) {
+    for (int dy = -1; dy <= 1; ++dy) {
+      Column* other = dx == 0 && dy == 0 ? nullptr : find(x + dx, y + dy);
+      if (other == nullptr) continue;
+      column->near(dx, dy) = other;
+      other->near(-dx, -dy) = column;
+    }
+  }
   for (const auto& [corner, cubes] :
        read_(static_cast<key_type>(x << bits_), static_cast<key_type>(y << bits_), size())) {
     Region& region = getOrCreate(*column, static_cast<key_type>(corner[2] >> bits_));
@@ -115,6 +123,7 @@ void RegionMap::forgetBeyond(const OcTreeKey& centre, int distance) {
     const int dx = (column->x << bits_) + half - centre[0], dy = (column->y << bits_) + half - centre[1];
     if (std::max(std::abs(dx), std::abs(dy)) <= distance) return false;
     columns_.erase(nameOf(column->x, column->y));
+    column->forEachNear([](Column& other, int dx, int dy) { other.near(-dx, -dy) = nullptr; });
     for (Region* region : column->regions) {
       regions_.erase(nameOf(region->x, region->y, region->z));
       forEachBit(region->known_octants,
