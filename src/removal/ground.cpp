@@ -112,9 +112,8 @@ GroundEstimation::GroundEstimation(const GroundConfig& config, double resolution
 void GroundEstimation::update(const RegionMap& map, const ScanTrace& trace) const {
   if (!config_.enabled) return;
   const auto columnAt = [&](std::size_t i) { return trace.columns[i].column; };
-  const auto all = [](const Column&) { return true; };
   const auto none = [](const Region&) { return std::uint64_t{0}; };  // of octants few are needed
-  visitColumns(trace.columns.size(), columnAt, all, none, [&](Column& column) {
+  visitColumns(trace.columns.size(), columnAt, none, [&](Column& column) {
     Region* lowest = column.lowest();
     if (lowest == nullptr) return;
     bool anew = lowest != column.base;

@@ -110,21 +110,20 @@ struct alignas(64) Column {
   }
 };
 
-/// Visits the columns columnAt(0) ... columnAt(n - 1) that are `due`. They lie all over the memory: asks for them,
-/// their lists, their regions and of these the octants `needed` (a mask) some time before they are needed.
-template <class ColumnAt, class Due, class Needed, class F>
-void visitColumns(std::size_t n, ColumnAt&& columnAt, Due&& due, Needed&& needed, F&& visit) {
+/// Visits the columns columnAt(0) ... columnAt(n - 1). They lie all over the memory: asks for them, their lists, their
+/// regions and of these the octants `needed` (a mask) some time before they are needed.
+template <class ColumnAt, class Needed, class F>
+void visitColumns(std::size_t n, ColumnAt&& columnAt, Needed&& needed, F&& visit) {
   constexpr std::size_t kAhead = 4;
-  const auto ahead = [&](std::size_t i) -> const Column* { return i < n && due(*columnAt(i)) ? columnAt(i) : nullptr; };
   for (std::size_t i = 0; i < n; ++i) {
     if (i + 4 * kAhead < n) __builtin_prefetch(columnAt(i + 4 * kAhead));
-    if (const Column* column = ahead(i + 3 * kAhead)) __builtin_prefetch(column->regions.data());
-    if (const Column* column = ahead(i + 2 * kAhead))
-      for (const Region* region : column->regions) Region::prefetch(region);
-    if (const Column* column = ahead(i + kAhead))
-      for (const Region* region : column->regions)
+    if (i + 3 * kAhead < n) __builtin_prefetch(columnAt(i + 3 * kAhead)->regions.data());
+    if (i + 2 * kAhead < n)
+      for (const Region* region : columnAt(i + 2 * kAhead)->regions) Region::prefetch(region);
+    if (i + kAhead < n)
+      for (const Region* region : columnAt(i + kAhead)->regions)
         forEachBit(needed(*region), [&](int o) { __builtin_prefetch(&region->octant(static_cast<std::size_t>(o))); });
-    if (due(*columnAt(i))) visit(*columnAt(i));
+    visit(*columnAt(i));
   }
 }
 
@@ -197,8 +196,15 @@ class RegionMap {
   /// the loose octants are likely to be needed.
   template <class Due, class F>
   void forEachColumn(Due&& due, F&& visit) const {
-    const auto columnAt = [this](std::size_t i) { return in_order_[i]; };
-    visitColumns(in_order_.size(), columnAt, due, [](const Region& region) { return region.loose_octants; }, visit);
+    constexpr std::size_t kAhead = 12;
+    std::vector<Column*> columns;
+    for (std::size_t i = 0; i < in_order_.size(); ++i) {
+      if (i + kAhead < in_order_.size()) __builtin_prefetch(in_order_[i + kAhead]);
+      if (due(*in_order_[i])) columns.push_back(in_order_[i]);
+    }
+    visitColumns(
+        columns.size(), [&](std::size_t i) { return columns[i]; },
+        [](const Region& region) { return region.loose_octants; }, visit);
   }
   template <class F>
   void forEachColumn(F&& visit) const {
