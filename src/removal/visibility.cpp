@@ -53,7 +53,7 @@ SensorView::SensorView(const KeySpace& keys, const octomap::pose6d& pose) {
 Visibility::Visibility(const RangeImage& image, const ScanPoints& scan, const VisibilityConfig& config, double cube)
     : projection_(image.projection()),
       ranges_(image.size()),
-      points_(image.size()),
+      points_(std::make_unique_for_overwrite<std::array<float, 3>[]>(image.size())),
       behind_(static_cast<float>(config.behind)),
       before_(static_cast<float>(config.before)),
       aside_(static_cast<float>(config.aside)),
@@ -65,12 +65,10 @@ Visibility::Visibility(const RangeImage& image, const ScanPoints& scan, const Vi
       skim_from_(static_cast<float>(config.skim_from)),
       edge_(static_cast<float>(1 + config.edge_share)),
       least_up_(config.window) {
-  for (std::size_t i = 0; i < image.size(); ++i) {
-    ranges_[i] = image.range(i);
-    if (const std::int32_t k = image.point(i); k >= 0) {
-      const auto at = static_cast<std::size_t>(k);
-      points_[i] = {scan.x[at], scan.y[at], scan.z[at]};
-    }
+  for (std::size_t i = 0; i < image.size(); ++i) ranges_[i] = image.range(i);
+  for (std::size_t i = 0; i < image.size() && scan.size() > 0; ++i) {
+    const auto at = static_cast<std::size_t>(std::max(image.point(i), 0));  // nobody asks for those of empty pixels
+    points_[i] = {scan.x[at], scan.y[at], scan.z[at]};
   }
 
   middle_.assign(static_cast<std::size_t>(projection_.rows), 0);
@@ -94,11 +92,17 @@ Visibility::Visibility(const RangeImage& image, const ScanPoints& scan, const Vi
   Farthest own{
       kSmallestBlock, blocks(projection_.rows, kSmallestBlock), blocks(projection_.columns, kSmallestBlock), {}};
   own.ranges.assign(static_cast<std::size_t>(own.rows * own.columns), 0.0F);
-  for (int i = 0; i < projection_.rows; ++i) {
-    const float* from = &ranges_[static_cast<std::size_t>(i * projection_.columns)];
+  std::vector<float> farthest(static_cast<std::size_t>(own.columns * kSmallestBlock));  // of the rows of a block
+  for (int i = 0; i < projection_.rows; i += kSmallestBlock) {
+    std::fill(farthest.begin(), farthest.end(), 0.0F);
+    for (int row = i; row < std::min(i + kSmallestBlock, projection_.rows); ++row) {
+      const float* from = &ranges_[static_cast<std::size_t>(row * projection_.columns)];
+      for (std::size_t j = 0; j < static_cast<std::size_t>(projection_.columns); ++j)
+        farthest[j] = std::max(farthest[j], from[j] < RangeImage::kEmpty ? from[j] : 0.0F);
+    }
     float* to = &own.ranges[static_cast<std::size_t>(i / kSmallestBlock * own.columns)];
-    for (int j = 0; j < projection_.columns; ++j)
-      to[j / kSmallestBlock] = std::max(to[j / kSmallestBlock], from[j] < RangeImage::kEmpty ? from[j] : 0.0F);
+    for (std::size_t j = 0; j < farthest.size(); ++j)
+      to[j / kSmallestBlock] = std::max(to[j / kSmallestBlock], farthest[j]);
   }
   while (own.rows > 2) {
     summarise(own);

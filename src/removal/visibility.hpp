@@ -4,6 +4,7 @@
 #include <array>
 #include <cmath>
 #include <cstdint>
+#include <memory>
 #include <span>
 #include <vector>
 
@@ -83,7 +84,7 @@ class Visibility {
 
   Projection projection_;
   std::vector<float> ranges_;
-  std::vector<std::array<float, 3>> points_;  // sensor's frame [m]
+  std::unique_ptr<std::array<float, 3>[]> points_;  // of the pixels that show one: sensor's frame [m]
   std::vector<Farthest> farthest_;            // blocks of 4, 8, 16 ... pixels
   std::vector<int> middle_;                   // the step in the middle of each row
   std::vector<Window> windows_;               // for cubes so many steps away; beyond: the last
