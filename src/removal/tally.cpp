@@ -14,21 +14,31 @@ namespace hn = hwy::HWY_NAMESPACE;
 
 using U8 = hn::CappedTag<std::uint8_t, 64>;
 
+/// Bit i is lane i.
+HWY_INLINE hn::Mask<U8> lanesOf(std::uint64_t cubes) {
+  std::uint8_t bits[8];
+  for (std::size_t byte = 0; byte < 8; ++byte) bits[byte] = static_cast<std::uint8_t>(cubes >> 8 * byte);
+  return hn::LoadMaskBits(U8(), bits);
+}
+
+HWY_INLINE std::uint64_t cubesOf(hn::Mask<U8> lanes) {
+  std::uint8_t bits[8] = {};
+  hn::StoreMaskBits(U8(), lanes, bits);
+  std::uint64_t cubes = 0;
+  for (std::size_t byte = 0; byte < 8; ++byte) cubes |= std::uint64_t{bits[byte]} << 8 * byte;
+  return cubes;
+}
+
 std::uint64_t CountUp(std::uint8_t* tally, std::uint64_t cubes, std::uint8_t enough) {
   const U8 d;
-  std::uint8_t bits[16] = {};  // as many bytes as are read from any of the first eight on
-  for (std::size_t byte = 0; byte < 8; ++byte) bits[byte] = static_cast<std::uint8_t>(cubes >> 8 * byte);
-  std::uint8_t reached[16] = {};
+  std::uint64_t reached = 0;
   for (std::size_t i = 0; i < 64; i += hn::Lanes(d)) {
-    const auto counted = hn::LoadMaskBits(d, bits + i / 8);
-    const auto before = hn::LoadU(d, tally + i);
-    const auto after = hn::SaturatedAdd(before, hn::IfThenElseZero(counted, hn::Set(d, 1)));
+    const auto counted = lanesOf(cubes >> i);
+    const auto after = hn::SaturatedAdd(hn::LoadU(d, tally + i), hn::IfThenElseZero(counted, hn::Set(d, 1)));
     hn::StoreU(after, d, tally + i);
-    hn::StoreMaskBits(d, hn::And(counted, hn::Eq(hn::Max(after, hn::Set(d, enough)), after)), reached + i / 8);
+    reached |= cubesOf(hn::And(counted, hn::Eq(hn::Max(after, hn::Set(d, enough)), after))) << i;
   }
-  std::uint64_t result = 0;
-  for (std::size_t byte = 0; byte < 8; ++byte) result |= std::uint64_t{reached[byte]} << 8 * byte;
-  return result;
+  return reached;
 }
 
 }  // namespace rhmap::HWY_NAMESPACE

@@ -225,8 +225,23 @@ Look Visibility::around(const Vector& p, float range, std::int32_t pixel) const 
     return false;
   };
 
-  // Most have something at their place; no point needs to be known for that.
-  if (any([&](std::size_t at, int) { return ranges_[at] >= before && ranges_[at] <= behind; })) return Look::kFilled;
+  // Most have something at their place; no point needs to be known for that. Row by row without branches.
+  const int first = column - window.beside, last = column + window.beside;
+  bool nearer = false;
+  for (int i = top; i <= bottom; ++i) {
+    const float* ranges = &ranges_[static_cast<std::size_t>(i * projection_.columns)];
+    bool filled = false;
+    const auto lookAt = [&](int from, int to) {
+      for (int j = from; j <= to; ++j) {
+        filled |= (ranges[j] >= before) & (ranges[j] <= behind);
+        nearer |= ranges[j] < before;
+      }
+    };
+    lookAt(std::max(first, 0), std::min(last, projection_.columns - 1));
+    if (first < 0) lookAt(first + projection_.columns, projection_.columns - 1);
+    if (last >= projection_.columns) lookAt(0, last - projection_.columns);
+    if (filled) return Look::kFilled;
+  }
 
   // Something nearer beside the cube: a surface may run from there to what is seen at the cube's own pixel. But not
   // from what stands in the next column to what is far behind it: the line between them all but meets the sensor, and
@@ -243,7 +258,7 @@ Look Visibility::around(const Vector& p, float range, std::int32_t pixel) const 
     return false;
   };
   const bool empty = ranges_[centre] == RangeImage::kEmpty;
-  if (any([&](std::size_t at, int j) {
+  if (nearer && any([&](std::size_t at, int j) {
         return ranges_[at] < before && (empty || isSurface(points_[at], j == column));
       }))
     return Look::kUnknown;

@@ -40,7 +40,7 @@ TEST(LookAround, CountsTheCubesOfAnOctantAndSoManyAround) {
       const OcTreeKey corner = test::cornerOf(cube);
       const auto isNear = [&](const OcTreeKey& other) { return test::isWithin(other, corner, reach); };
       const Neighbourhood around =
-          lookAround(map, corner, reach, [](const Region& region, std::size_t o) { return region.octants[o].doubted; });
+          lookAround(map, corner, reach, [](const Region& region, std::size_t o) { return region.octant(o).doubted; });
       EXPECT_EQ(around.moving, std::count_if(doubted.begin(), doubted.end(), isNear));
       EXPECT_EQ(around.firm, std::count_if(firm.begin(), firm.end(), isNear));
       EXPECT_EQ(around.others, std::count_if(others.begin(), others.end(), isNear));

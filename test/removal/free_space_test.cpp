@@ -31,8 +31,8 @@ class Hall {
         cloud.push_back(static_cast<float>(range * x), static_cast<float>(range * y), static_cast<float>(range * z));
       }
     }
-    const ScanTrace trace = traceScan(map_, test::scanOf(cloud), sensor_, ++scans_, {.resolution = kCube});
-    free_space_.observe(map_, trace,
+    const ScanTrace trace = test::trace(map_, test::scanOf(cloud), sensor_, ++scans_, {.resolution = kCube});
+    free_space_.observe(trace,
                         {static_cast<float>(kTreeMaxVal), static_cast<float>(kTreeMaxVal),
                          static_cast<float>(kTreeMaxVal + lift / kCube)});
   }

@@ -62,7 +62,7 @@ class Ground {
   explicit Ground(const GroundConfig& config = {}) : estimation_(config, kCube) {}
 
   void insert(const std::vector<OcTreeKey>& cubes) {
-    estimation_.update(map_, traceScan(map_, test::pointsIn(cubes), cubeAt(0, 0, 0), ++scan_, {.resolution = kCube}));
+    estimation_.update(map_, test::trace(map_, test::pointsIn(cubes), cubeAt(0, 0, 0), ++scan_, {.resolution = kCube}));
   }
   static std::vector<OcTreeKey> plate(int x0, int x1, int z) {
     std::vector<OcTreeKey> cubes;
@@ -71,14 +71,14 @@ class Ground {
     return cubes;
   }
   bool is(const OcTreeKey& cube) const {
-    return (map_.regionOf(cube)->octants[map_.octantOf(cube)].ground & maskOf(bitOf(cube))) != 0;
+    return (map_.regionOf(cube)->octant(map_.octantOf(cube)).ground & maskOf(bitOf(cube))) != 0;
   }
   /// Whether the removal has to look at the octant of a cube.
   bool isLoose(const OcTreeKey& cube) const {
     return (map_.regionOf(cube)->loose_octants >> map_.octantOf(cube) & 1) != 0;
   }
   bool isSafe(const OcTreeKey& cube) const {
-    return (map_.regionOf(cube)->octants[map_.octantOf(cube)].safe & maskOf(bitOf(cube))) != 0;
+    return (map_.regionOf(cube)->octant(map_.octantOf(cube)).safe & maskOf(bitOf(cube))) != 0;
   }
 
  private:

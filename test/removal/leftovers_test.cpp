@@ -28,7 +28,7 @@ using test::occupy;
 /// A cube that one scan has hit.
 Octant& hit(RegionMap& map, const OcTreeKey& cube) {
   Octant& octant = occupy(map, cube);
-  map.regionOf(cube)->counts[map.octantOf(cube)][static_cast<std::size_t>(bitOf(cube))].hits = 1;
+  countsOf(map.regionOf(cube)->octant(map.octantOf(cube))).hits[static_cast<std::size_t>(bitOf(cube))] = 1;
   return octant;
 }
 
@@ -49,7 +49,7 @@ std::size_t leftOf(int gone, int firm = 0, const LeftoverConfig& config = {}) {
   }
   RemovalResult result;
   removeLeftovers(map, std::array{corner}, 0, config, kCube, {.scan = 1}, result);
-  const Octant& octant = map.regionOf(corner)->octants[map.octantOf(corner)];
+  const Octant& octant = map.regionOf(corner)->octant(map.octantOf(corner));
   return static_cast<std::size_t>(std::popcount(octant.occupied));
 }
 
@@ -71,9 +71,9 @@ TEST(Leftovers, AreNotOfTheGroundNorFirmNorHitByThisScan) {
   for (int bit = 8; bit < 64; ++bit) takeOut(map, cubeOf(corner, bit));
   for (int bit = 0; bit < 4; ++bit) hit(map, cubeOf(corner, bit));
   Region* region = map.regionOf(corner);
-  Octant& octant = region->octants[map.octantOf(corner)];
+  Octant& octant = region->octant(map.octantOf(corner));
   octant.ground = 1, octant.firm = 2, octant.hit = 4;
-  region->scan = 7;
+  region->scan = 7, region->hit_octants = maskOf(static_cast<int>(map.octantOf(corner)));
   RemovalResult result;
   removeLeftovers(map, std::array{corner}, 0, {}, kCube, {.scan = 7}, result);
   EXPECT_EQ(octant.occupied, 7U);

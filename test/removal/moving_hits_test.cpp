@@ -75,10 +75,10 @@ class Place {
  private:
   std::size_t insert(const octomap::Pointcloud& cloud) {
     const ScanPoints points = test::scanOf(cloud, 1);
-    const ScanTrace trace = traceScan(map_, points, sensor_, ++scans_, {.resolution = kCube});
+    const ScanTrace trace = test::trace(map_, points, sensor_, ++scans_, {.resolution = kCube});
     ground_.update(map_, trace);
     const SensorView view(KeySpace(kCube), octomap::pose6d{});
-    free_space_.observe(map_, trace, view.origin());
+    free_space_.observe(trace, view.origin());
     removed_.clear();
     const std::size_t rejected = moving_.reject(map_, trace, free_space_, removed_);
     const RangeImage image(measureProjection({}, points), points);

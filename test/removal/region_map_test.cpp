@@ -34,9 +34,7 @@ TEST_P(RegionSizes, EachCubeHasOneBitInOneOctant) {
     const Region region{.x = static_cast<key_type>(cube[0] >> map.bits()),
                         .y = static_cast<key_type>(cube[1] >> map.bits()),
                         .z = static_cast<key_type>(cube[2] >> map.bits()),
-                        .octants = {},
-                        .counts = {},
-                        .past = {}};
+                        .column = nullptr};
     ASSERT_LT(map.octantOf(cube), map.octants());
     ASSERT_EQ(cubeOf(map.cornerOf(region, map.octantOf(cube)), bitOf(cube)), cube);
   }
@@ -48,7 +46,9 @@ TEST_P(RegionSizes, EachOctantIsALineOfTheCache) {
   for (int i = 0; i < 200; ++i) {
     const OcTreeKey cube = cubes();
     occupy(map, cube);
-    EXPECT_EQ(reinterpret_cast<std::uintptr_t>(map.regionOf(cube)->octants.data()) % 64, 0U);
+    const Octant& octant = map.regionOf(cube)->octant(map.octantOf(cube));
+    EXPECT_EQ(reinterpret_cast<std::uintptr_t>(&octant) % 64, 0U);
+    EXPECT_EQ(reinterpret_cast<std::uintptr_t>(&countsOf(octant).hits) % 64, 0U);
   }
 }
 
@@ -65,7 +65,7 @@ TEST_P(RegionSizes, HeightsFollowInsertionsAndRemovals) {
     map.forEachColumn([&](Column& column) {
       for (const Region* region : column.regions) {
         int cubes = 0;
-        for (const Octant& octant : region->octants) cubes += std::popcount(octant.occupied);
+        for (std::size_t o = 0; o < map.octants(); ++o) cubes += std::popcount(region->octant(o).occupied);
         EXPECT_EQ(region->cubes, cubes);
       }
       map.refreshHeights(column);
@@ -130,6 +130,49 @@ TEST_P(RegionSizes, ForgetsExactlyTheColumnsThatAreFarther) {
   std::size_t visited = 0;
   map.forEachColumn([&](Column& column) { visited += all.count({column.x, column.y}); });
   EXPECT_EQ(visited, kept);
+}
+
+TEST_P(RegionSizes, ColumnsKnowThoseAroundThem) {
+  RegionMap map = emptyMap(GetParam());
+  RandomCubes cubes(18, 100);
+  int known = 0;
+  for (int round = 0; round < 3; ++round) {
+    for (int i = 0; i < 300; ++i) occupy(map, cubes());
+    map.forgetBeyond({kTreeMaxVal + 30, kTreeMaxVal, kTreeMaxVal}, 60);
+    map.forEachColumn([&](Column& column) {
+      for (int dx = -1; dx <= 1; ++dx) {
+        for (int dy = -1; dy <= 1; ++dy) {
+          if (dx == 0 && dy == 0) continue;
+          EXPECT_EQ(column.near(dx, dy), map.find(column.x + dx, column.y + dy));
+          known += column.near(dx, dy) != nullptr;
+        }
+      }
+    });
+  }
+  EXPECT_GT(known, 500);
+}
+
+TEST_P(RegionSizes, NothingIsLeftOfAnOctantThatWasForgotten) {
+  RegionMap map = emptyMap(GetParam());
+  const OcTreeKey cube(kTreeMaxVal, kTreeMaxVal, kTreeMaxVal);
+  std::size_t memory = 0;
+  for (int round = 0; round < 3; ++round) {
+    const OcTreeKey other(static_cast<key_type>(cube[0] + 2000 * round), cube[1], cube[2]);
+    Octant& octant = occupy(map, other);
+    EXPECT_EQ(octant.occupied, maskOf(bitOf(other)));
+    EXPECT_EQ(octant.firm | octant.ground | octant.hit, 0U);
+    EXPECT_EQ(countsOf(octant).hits, Tally{});
+    EXPECT_EQ(pastOf(octant).first, 0U);
+    octant.firm = octant.ground = octant.hit = ~std::uint64_t{0};
+    countsOf(octant).hits.fill(9);
+    pastOf(octant).first = 5;
+    for (std::size_t o = 0; o < map.octants(); ++o)
+      EXPECT_EQ(map.regionOf(other)->knows(o), o == map.octantOf(other)) << o;
+    if (round == 0) memory = map.memoryUsage();
+    EXPECT_EQ(map.memoryUsage(), memory);  // that of the octant before
+    map.forgetBeyond({0, 0, 0}, 0);
+    EXPECT_EQ(map.regionOf(other), nullptr);
+  }
 }
 
 TEST_P(RegionSizes, AColumnIsReadFromTheTree) {

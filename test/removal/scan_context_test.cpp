@@ -33,7 +33,7 @@ struct Scene {
       if (std::abs(p.y()) < 3 && p.z() > -0.5F && p.z() < 0.3F) p *= 10 / p.x();
     points = test::scanOf(cloud);
     image = RangeImage(measureProjection({}, points), points);
-    trace = traceScan(map, points, sensor, 1, {.reach = 50, .resolution = kCube});
+    trace = test::trace(map, points, sensor, 1, {.reach = 50, .resolution = kCube});
     for (std::size_t i = 0; i < trace.columns.size(); ++i)
       *grid.at(trace.columns[i].column->x, trace.columns[i].column->y) = static_cast<std::int32_t>(i);
   }

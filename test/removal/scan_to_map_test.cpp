@@ -30,7 +30,7 @@ class Look {
   }
   RemovalResult scan(bool everywhere = false, bool protect = true) {
     const ScanPoints points = test::scanOf(test::wallAndGround(20, 64, 1440));
-    ScanTrace trace = traceScan(map_, points, at(0, 0, 0), ++scans_, {.resolution = kCube});
+    ScanTrace trace = test::trace(map_, points, at(0, 0, 0), ++scans_, {.resolution = kCube});
     const RangeImage image(measureProjection({}, points), points);
     std::shared_ptr<const Visibility> visibility;
     if (config_.visibility.enabled) visibility = std::make_shared<Visibility>(image, points, config_.visibility, kCube);
@@ -83,7 +83,7 @@ TEST(ScanToMapRemoval, LeavesWhatIsSafeGround) {
   Look look;
   look.ghost(10, 0);
   const OcTreeKey low = at(10.15, 0.15, -1.25);
-  look.map().regionOf(low)->octants[look.map().octantOf(low)].safe = maskOf(bitOf(low));
+  look.map().regionOf(low)->octant(look.map().octantOf(low)).safe = maskOf(bitOf(low));
   look.scan();
   EXPECT_TRUE(test::isOccupied(look.map(), low));
 }
@@ -108,12 +108,13 @@ TEST(ScanToMapRemoval, TakesDoubtsBackWhereItSeesSomething) {
   const OcTreeKey in_wall = at(20.15, 0.15, -0.25);  // one behind what is hit
   Octant& octant = occupy(look.map(), in_wall);
   const Region* region = look.map().regionOf(in_wall);
-  CubeCounts& counts = region->counts[look.map().octantOf(in_wall)][static_cast<std::size_t>(bitOf(in_wall))];
+  std::uint8_t& misses =
+      countsOf(region->octant(look.map().octantOf(in_wall))).misses[static_cast<std::size_t>(bitOf(in_wall))];
   octant.doubted = maskOf(bitOf(in_wall));
-  counts.misses = 5;
+  misses = 5;
   look.scan(true);
   EXPECT_EQ(octant.doubted, 0U);
-  EXPECT_EQ(counts.misses, 0);
+  EXPECT_EQ(misses, 0);
 }
 
 TEST(ScanToMapRemoval, MakesFirmWhatScansOftenSeeSomethingAt) {
@@ -144,7 +145,11 @@ TEST(ScanToMapRemoval, IsSureOfWhatItOftenSeesThroughNearFirmCubes) {
     look.ghost(10, 0);
     look.map().forEachColumn([&](Column& column) {
       for (const auto& region : column.regions)
-        for (OctantCounts& counts : region->counts) counts.fill({.hits = hits, .misses = 0});
+        forEachBit(region->known_octants, [&](int o) {
+          OctantCounts& counts = countsOf(region->octant(static_cast<std::size_t>(o)));
+          counts.hits.fill(hits);
+          counts.misses.fill(0);
+        });
     });
     for (int i = 0; i < 4; ++i)
       for (int k = 0; k < 12; ++k)
@@ -228,7 +233,10 @@ TEST(ScanToMapRemoval, LooksAtTheGroundLessOften) {
     if (is_ground) {
       look.map().forEachColumn([](Column& column) {
         for (Region* region : column.regions)
-          for (Octant& octant : region->octants) octant.ground = octant.occupied;
+          forEachBit(region->known_octants, [&](int o) {
+            Octant& octant = region->octant(static_cast<std::size_t>(o));
+            octant.ground = octant.occupied;
+          });
       });
     }
     int scans = 0, last = 0;
@@ -250,7 +258,11 @@ TEST(ScanToMapRemoval, LeavesWhatHasStoppedToTheBackEndsGuard) {
     look.ghost(10, 0);
     look.map().forEachColumn([](Column& column) {
       for (const auto& region : column.regions)
-        for (OctantCounts& counts : region->counts) counts.fill({.hits = 20, .misses = 0});
+        forEachBit(region->known_octants, [&](int o) {
+          OctantCounts& counts = countsOf(region->octant(static_cast<std::size_t>(o)));
+          counts.hits.fill(20);
+          counts.misses.fill(0);
+        });
     });
     EXPECT_EQ(cubesOf(look.scan()) > 0, revert_hits == 0);
   }

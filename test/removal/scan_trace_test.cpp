@@ -39,7 +39,7 @@ TEST_P(TracedRegionSizes, CountTheScansThatHitEachCube) {
     }
     const auto before = hits;
     for (const Cube& c : now) ++hits[c];
-    const ScanTrace trace = traceScan(map, pointsIn(cubes), {kTreeMaxVal, kTreeMaxVal, kTreeMaxVal}, scan,
+    const ScanTrace trace = test::trace(map, pointsIn(cubes), {kTreeMaxVal, kTreeMaxVal, kTreeMaxVal}, scan,
                                       {.reach = 50, .resolution = kCube, .firm = kFirm});
     ASSERT_EQ(trace.columns.size(), columns.size());
     for (const ScanColumn& c : trace.columns) {
@@ -52,12 +52,15 @@ TEST_P(TracedRegionSizes, CountTheScansThatHitEachCube) {
       const auto& [x, y, z] = at;
       const OcTreeKey cube(static_cast<key_type>(x), static_cast<key_type>(y), static_cast<key_type>(z));
       const Region* region = map.regionOf(cube);
-      const Octant& octant = region->octants[map.octantOf(cube)];
+      const Octant& octant = region->octant(map.octantOf(cube));
       const std::uint64_t mask = maskOf(bitOf(cube));
       ASSERT_TRUE(octant.occupied & mask);
-      EXPECT_EQ(region->counts[map.octantOf(cube)][static_cast<std::size_t>(bitOf(cube))].hits, count);
+      EXPECT_EQ(countsOf(octant).hits[static_cast<std::size_t>(bitOf(cube))], count);
       EXPECT_EQ((octant.firm & mask) != 0, count >= kFirm);
-      if (region->scan != scan) continue;
+      if (!region->isHitBy(scan, map.octantOf(cube))) {
+        EXPECT_EQ(now.count(at), 0U);
+        continue;
+      }
       EXPECT_EQ((octant.hit & mask) != 0, now.count(at) == 1);
       EXPECT_EQ((octant.fresh & mask) != 0, now.count(at) == 1 && before.count(at) == 0);
     }
@@ -69,7 +72,7 @@ TEST(ScanTrace, LeavesWhatIsOutOfReachOutOfTheColumns) {
   const OcTreeKey low(kTreeMaxVal, kTreeMaxVal, kTreeMaxVal), high(kTreeMaxVal, kTreeMaxVal, kTreeMaxVal + 2);
   ScanPoints points = pointsIn({low, high, low});
   points.range[1] = 60;
-  const ScanTrace trace = traceScan(map, points, low, 1, {.reach = 50, .resolution = kCube});
+  const ScanTrace trace = test::trace(map, points, low, 1, {.reach = 50, .resolution = kCube});
   ASSERT_EQ(trace.columns.size(), 1U);
   EXPECT_EQ(trace.columns[0].points, 2);
   EXPECT_EQ(trace.columns[0].z_min, low[2]);
@@ -80,8 +83,8 @@ TEST(ScanTrace, LeavesWhatIsOutOfReachOutOfTheColumns) {
 TEST(ScanTrace, WithoutInsertionOnlyMarks) {
   RegionMap map = emptyMap();
   const OcTreeKey cube(kTreeMaxVal, kTreeMaxVal, kTreeMaxVal);
-  traceScan(map, pointsIn({cube}), cube, 1, {.insert = false});
-  const Octant& octant = map.regionOf(cube)->octants[map.octantOf(cube)];
+  test::trace(map, pointsIn({cube}), cube, 1, {.insert = false});
+  const Octant& octant = map.regionOf(cube)->octant(map.octantOf(cube));
   EXPECT_EQ(octant.occupied, 0U);
   EXPECT_EQ(octant.hit, maskOf(bitOf(cube)));
 }

@@ -10,6 +10,7 @@
 #include "region_map.hpp"
 #include "rhmap/octree/key_space.hpp"
 #include "scan_points.hpp"
+#include "scan_trace.hpp"
 
 namespace rhmap::test {
 
@@ -25,7 +26,7 @@ inline Octant& occupy(RegionMap& map, const OcTreeKey& cube) {
   Column& column =
       map.getOrCreate(static_cast<key_type>(cube[0] >> map.bits()), static_cast<key_type>(cube[1] >> map.bits()));
   Region& region = map.getOrCreate(column, static_cast<key_type>(cube[2] >> map.bits()));
-  Octant& octant = region.octants[map.octantOf(cube)];
+  Octant& octant = map.getOrCreate(region, map.octantOf(cube));
   if ((octant.occupied & maskOf(bitOf(cube))) == 0) region.add(map.octantOf(cube), maskOf(bitOf(cube)));
   column.stale = true;
   return octant;
@@ -33,7 +34,7 @@ inline Octant& occupy(RegionMap& map, const OcTreeKey& cube) {
 
 inline bool isOccupied(const RegionMap& map, const OcTreeKey& cube) {
   const Region* region = map.regionOf(cube);
-  return region != nullptr && (region->octants[map.octantOf(cube)].occupied & maskOf(bitOf(cube))) != 0;
+  return region != nullptr && (region->octant(map.octantOf(cube)).occupied & maskOf(bitOf(cube))) != 0;
 }
 
 /// A cube, counted from the middle of the key space.
@@ -73,6 +74,14 @@ inline ScanPoints pointsIn(const std::vector<OcTreeKey>& cubes) {
   for (const OcTreeKey& cube : cubes) points.cell.push_back(cell_word::fromKey(cube));
   for (auto* v : {&points.x, &points.y, &points.z, &points.range}) v->assign(cubes.size(), 1.0F);
   return points;
+}
+
+/// Marks the cubes of a scan in a map.
+inline ScanTrace trace(RegionMap& map, const ScanPoints& points, const OcTreeKey& sensor, std::uint32_t scan,
+                       const TraceConfig& config) {
+  ScanTrace trace;
+  traceScan(map, ScanOctants(points, config.reach), sensor, scan, config, trace);
+  return trace;
 }
 
 /// A scan from points in the sensor's frame; the sensor stands at the origin.

@@ -33,16 +33,16 @@ class World {
     for (int i = 0; i < times; ++i) scan(cubeAt(-100, 0, 0));
   }
 
-  Octant& octant() { return map_.regionOf(octant_)->octants[map_.octantOf(octant_)]; }
+  Octant& octant() { return map_.regionOf(octant_)->octant(map_.octantOf(octant_)); }
   int firmCubes() { return std::popcount(octant().firm); }
 
  private:
   void scan(const OcTreeKey& cube) {
     const ScanTrace trace =
-        traceScan(map_, test::pointsIn({cube}), cubeAt(0, 0, 0), ++scans_, {.resolution = kCube, .firm = 255});
+        test::trace(map_, test::pointsIn({cube}), cubeAt(0, 0, 0), ++scans_, {.resolution = kCube, .firm = 255});
     const auto at = static_cast<float>(kTreeMaxVal);
-    free_space_.observe(map_, trace, {at, at, at});
-    noteStanding(map_, trace, free_space_, config_);
+    free_space_.observe(trace, {at, at, at});
+    noteStanding(trace, free_space_, config_);
   }
 
   StandingConfig config_;

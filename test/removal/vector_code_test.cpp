@@ -11,6 +11,7 @@
 #include "pixels.hpp"
 #include "range_image.hpp"
 #include "scan_points.hpp"
+#include "tally.hpp"
 #include "targets.hpp"
 #include "void_rays.hpp"
 
@@ -120,6 +121,25 @@ TEST_P(VectorCode, RaysCrossTheCellsOfAmanatidesAndWoo) {
   EXPECT_FALSE(crossed.empty());
   for (int y = 0; y < 80; ++y)
     for (int x = 0; x < 80; ++x) ASSERT_EQ(crossed.word(x, y), expected.word(x, y)) << x << ' ' << y;
+}
+
+TEST_P(VectorCode, ATallyCountsEachOfItsCubes) {
+  std::mt19937_64 random(8);
+  Tally tally{}, expected{};
+  for (int i = 0; i < 1500; ++i) {
+    const std::uint64_t cubes = i % 7 == 0 ? ~std::uint64_t{0} : random() & random();
+    const int enough = i % 11 == 0 ? 255 : i % 13 == 0 ? 1 : 3 + i / 4;
+    std::uint64_t reached = 0;
+    for (std::size_t bit = 0; bit < 64; ++bit) {
+      if ((cubes >> bit & 1) == 0) continue;
+      countUp(expected[bit]);
+      reached |= std::uint64_t{expected[bit] >= enough} << bit;
+    }
+    if (enough > 255) continue;
+    ASSERT_EQ(countUp(tally, cubes, enough), reached) << i;
+    ASSERT_EQ(tally, expected) << i;
+  }
+  EXPECT_EQ(*std::max_element(tally.begin(), tally.end()), 255);
 }
 
 TEST(Counters, CountAsSixtyFourCounters) {
