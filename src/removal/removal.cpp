@@ -8,6 +8,7 @@
 
 #include "leftovers.hpp"
 #include "rhmap/octree/scan_marking.hpp"
+#include "rhmap/octree/structure.hpp"
 #include "standing.hpp"
 #include "tree_reader.hpp"
 
@@ -237,14 +238,13 @@ void RhMap::Removal::markFree(const octomap::Pointcloud& points, const octomap::
 
 /// Values above a cube: deleteNode, as OctoMap's, leaves all but the parent's as they were.
 void RhMap::Removal::refreshAbove(const OcTreeKey& cube) {
-  std::array<OcTreeNode*, kTreeDepth> path{};
-  unsigned depth = 0;
-  for (OcTreeNode* node = tree_.getRoot(); node != nullptr && tree_.nodeHasChildren(node);) {
-    path[depth++] = node;
-    const unsigned i = computeChildIdx(cube, static_cast<int>(kTreeDepth - depth));
-    node = tree_.nodeChildExists(node, i) ? tree_.getNodeChild(node, i) : nullptr;
+  BlockStore<OcTreeNode>& store = *tree_.store_;
+  NodeRef at = store.deepest(cube);
+  if (at && store.hasChildren(at)) structure::recompute(store, at, store.children(at));
+  while (const NodeRef above = store.parent(at)) {
+    structure::recompute(store, above, at);
+    at = above;
   }
-  while (depth > 0) path[--depth]->updateOccupancyChildren();
 }
 
 void RhMap::Removal::erase(const RemovalResult& result, ScanReport& report) {
@@ -254,7 +254,7 @@ void RhMap::Removal::erase(const RemovalResult& result, ScanReport& report) {
       const OcTreeKey cube = cubeOf(removed.corner, bit);
       if (config_.removed == RemovedCubes::kFree && removed.seen_through) {
         tree_.setNodeValue(cube, tree_.clamping_thres_min);
-      } else if (tree_.search(cube) != nullptr) {
+      } else {
         tree_.deleteNode(cube);
       }
     });

@@ -196,7 +196,7 @@ NodeRef reach(BlockStore<NODE>& store, NodeRef deepest, const OcTreeKey& key, un
 template <class NODE, class Expand>
 bool deleteNode(BlockStore<NODE>& store, const OcTreeKey& key, unsigned depth, Expand&& expand) {
   if (store.empty()) return true;
-  NodeRef at = store.root();
+  NodeRef at = depth == kTreeDepth ? store.deepest(key) : store.root();
   while (at.depth() < depth) {
     if (!store.hasChildren(at)) {
       if (at == store.root()) return false;
