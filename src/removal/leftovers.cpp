@@ -30,10 +30,11 @@ class LooseOctants {
   }
 
   void addThinnedColumns(int interval) {
-    const auto isDue = [&](const Column& column) {
-      return column.thinned && turnOf(column.x, column.y, look_.scan) % static_cast<std::uint32_t>(interval) == 0;
+    const auto isTurn = [&](key_type x, key_type y) {
+      return turnOf(x, y, look_.scan) % static_cast<std::uint32_t>(interval) == 0;
     };
-    map_.forEachColumn(isDue, [&](const Column& column) {
+    const auto isThinned = [](const Column& column) { return column.thinned; };
+    map_.forEachColumn(isTurn, isThinned, [&](const Column& column) {
       for (Region* region : column.regions)
         forEachBit(region->loose_octants, [&](int o) { add(*region, static_cast<std::size_t>(o)); });
     });

@@ -45,7 +45,7 @@ RegionMap::RegionMap(int size, Reader read)
       region_pool_(recordBytes(octants())) {}
 
 RegionMap::~RegionMap() {
-  for (Column* column : in_order_) delete column;
+  for (const Place& place : in_order_) delete place.column;
 }
 
 Region* RegionMap::makeRegion(Column& column, key_type z) {
@@ -63,7 +63,7 @@ Column& RegionMap::getOrCreate(key_type x, key_type y) {
   if (Column* known = find(x, y)) return *known;
   auto* column = new Column{.x = x, .y = y, .regions = {}, .ground = {}};
   columns_.insert(nameOf(x, y), column);
-  in_order_.push_back(column);
+  in_order_.push_back({x, y, column});
   for (int dx = -1; dx <= 1; ++dx) {
     for (int dy = -1; dy <= 1; ++dy) {
       Column* other = dx == 0 && dy == 0 ? nullptr : find(x + dx, y + dy);
@@ -119,7 +119,8 @@ void RegionMap::refreshHeights(Column& column) const {
 
 void RegionMap::forgetBeyond(const OcTreeKey& centre, int distance) {
   const int half = size() / 2;
-  std::erase_if(in_order_, [&](Column* column) {
+  std::erase_if(in_order_, [&](const Place& place) {
+    Column* column = place.column;
     const int dx = (column->x << bits_) + half - centre[0], dy = (column->y << bits_) + half - centre[1];
     if (std::max(std::abs(dx), std::abs(dy)) <= distance) return false;
     columns_.erase(nameOf(column->x, column->y));

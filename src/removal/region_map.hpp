@@ -192,23 +192,26 @@ class RegionMap {
   std::size_t numColumns() const { return columns_.size(); }
   std::size_t memoryUsage() const;
 
-  /// Those that are `due`, in the order in which they became known, which is much quicker than by hash. Of their regions
-  /// the loose octants are likely to be needed.
-  template <class Due, class F>
-  void forEachColumn(Due&& due, F&& visit) const {
+  /// Visits those that are `due`, of those that may be due by their place: mayBeDue(x, y), due(column), visit(column).
+  /// In the order in which they became known, which is much quicker than by hash. Of their regions the loose octants are
+  /// likely to be needed.
+  template <class MayBeDue, class Due, class F>
+  void forEachColumn(MayBeDue&& mayBeDue, Due&& due, F&& visit) const {
     constexpr std::size_t kAhead = 12;
     std::vector<Column*> columns;
-    for (std::size_t i = 0; i < in_order_.size(); ++i) {
-      if (i + kAhead < in_order_.size()) __builtin_prefetch(in_order_[i + kAhead]);
-      if (due(*in_order_[i])) columns.push_back(in_order_[i]);
+    for (const Place& place : in_order_)
+      if (mayBeDue(place.x, place.y)) columns.push_back(place.column);
+    std::size_t n = 0;
+    for (std::size_t i = 0; i < columns.size(); ++i) {
+      if (i + kAhead < columns.size()) __builtin_prefetch(columns[i + kAhead]);
+      if (due(*columns[i])) columns[n++] = columns[i];
     }
     visitColumns(
-        columns.size(), [&](std::size_t i) { return columns[i]; },
-        [](const Region& region) { return region.loose_octants; }, visit);
+        n, [&](std::size_t i) { return columns[i]; }, [](const Region& region) { return region.loose_octants; }, visit);
   }
   template <class F>
   void forEachColumn(F&& visit) const {
-    forEachColumn([](const Column&) { return true; }, visit);
+    forEachColumn([](key_type, key_type) { return true; }, [](const Column&) { return true; }, visit);
   }
 
  private:
@@ -230,7 +233,11 @@ class RegionMap {
   OctantPool octant_pool_;
   BlockIndex<Column> columns_;
   BlockIndex<Region> regions_;
-  std::vector<Column*> in_order_;  // the same
+  struct Place {
+    key_type x, y;
+    Column* column;
+  };
+  std::vector<Place> in_order_;  // the same
 };
 
 }  // namespace rhmap

@@ -93,14 +93,15 @@ class ScanToMapRemoval {
     const auto& sensor = scan_.view.origin();
     const auto interval = static_cast<std::uint32_t>(config_.evidence.interval);
     const auto doubtful_interval = static_cast<std::uint32_t>(config_.evidence.doubtful_interval);
-    const auto isDue = [&](const Column& column) {
-      const std::uint32_t turn = turnOf(column.x, column.y, look_.scan);
-      if (turn % interval != 0 && !(column.doubtful && turn % doubtful_interval == 0)) return false;
-      const float dx = static_cast<float>(column.x << map_.bits()) - sensor[0];
-      const float dy = static_cast<float>(column.y << map_.bits()) - sensor[1];
+    const auto isTurn = [&](key_type x, key_type y) { return turnOf(x, y, look_.scan) % interval == 0; };
+    const auto mayBeDue = [&](key_type x, key_type y) {
+      if (!isTurn(x, y) && turnOf(x, y, look_.scan) % doubtful_interval != 0) return false;
+      const float dx = static_cast<float>(x << map_.bits()) - sensor[0];
+      const float dy = static_cast<float>(y << map_.bits()) - sensor[1];
       return dx * dx + dy * dy <= reach * reach;
     };
-    map_.forEachColumn(isDue, [&](Column& column) {
+    const auto isDue = [&](const Column& column) { return column.doubtful || isTurn(column.x, column.y); };
+    map_.forEachColumn(mayBeDue, isDue, [&](Column& column) {
       if (std::binary_search(candidates.begin(), candidates.end(), &column)) return;
       column.doubtful = false;
       for (Region* region : column.regions) lookAt(*region, config_.evidence.misses);

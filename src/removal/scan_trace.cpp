@@ -83,7 +83,7 @@ void traceScan(RegionMap& map, const ScanOctants& octants, const OcTreeKey& sens
     }
     for (std::size_t i = 0; i < n; ++i) {
       TracedOctant& at = places[i];
-      at.region = map.find(names[i]);
+      at.region = i > 0 && names[i] == names[i - 1] ? places[i - 1].region : map.find(names[i]);
       if (at.region == nullptr) at.region = &map.getOrCreate(at.corner);
       Region::prefetch(at.region);
     }

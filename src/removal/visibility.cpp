@@ -134,16 +134,15 @@ void Visibility::summarise(const Farthest& own) {
   farthest_.push_back(std::move(around));
 }
 
-/// Most cubes are behind something, or are what is seen.
+/// Most cubes are behind something, or are what is seen: which of them is chosen without branches.
 inline Look Visibility::at(const std::array<float, 3>& p, float range, std::int32_t pixel) const {
-  if (pixel < 0) return Look::kUnknown;
-  const float centre = ranges_[static_cast<std::size_t>(pixel)];
-  if (centre < range - before_) return Look::kUnknown;
+  const float centre = ranges_[static_cast<std::size_t>(std::max(pixel, 0))];
+  bool unknown = (pixel < 0) | (centre < range - before_);
   // Above the first row's beam nothing would show a surface that runs on towards the sensor: a ceiling.
-  if (pixel < projection_.columns && centre < range * edge_ && projection_.stepOf(p[0], p[1], p[2]) < kFirstBeam)
-    return Look::kUnknown;
-  if (centre <= range + behind_) return Look::kFilled;
-  return around(p, range, pixel);
+  if (pixel < projection_.columns && centre < range * edge_)
+    unknown |= projection_.stepOf(p[0], p[1], p[2]) < kFirstBeam;
+  if (!unknown && centre > range + behind_) return around(p, range, pixel);
+  return unknown ? Look::kUnknown : Look::kFilled;
 }
 
 Look Visibility::at(const std::array<float, 3>& p) const {
@@ -177,9 +176,10 @@ void Visibility::look(const SensorView& from, std::span<const CubesAt> places, s
       CubeLooks& of = looks[place] = {};
       for (std::uint64_t rest = places[place].cubes; rest != 0; rest &= rest - 1, ++i) {
         const Look look = at({x[i], y[i], z[i]}, range[i], pixels[i]);
-        if (look == Look::kFilled) of.filled |= rest & -rest;
-        if (look == Look::kSeenThrough) of.seen_through |= rest & -rest;
-        if (look == Look::kSkimmed) of.skimmed |= rest & -rest;
+        const std::uint64_t cube = rest & -rest;
+        of.filled |= look == Look::kFilled ? cube : 0;
+        of.seen_through |= look == Look::kSeenThrough ? cube : 0;
+        of.skimmed |= look == Look::kSkimmed ? cube : 0;
       }
     }
   }
