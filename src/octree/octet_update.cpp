@@ -67,9 +67,8 @@ HWY_INLINE void updateOctet(OctetUpdate<OcTreeNode>& o, const SensorModel& model
   for (std::size_t i = 0; i < 8; i += hn::Lanes(f)) {
     const MF hit = lanesOf(o.hit, i);
     const MF existing = lanesOf(o.existing, i);
-    const auto chosen = [&](float of_hit, float of_miss) HWY_ATTR {
-      return hn::IfThenElse(hit, hn::Set(f, of_hit), hn::Set(f, of_miss));
-    };
+    const auto chosen = [&](float of_hit, float of_miss)
+                            HWY_ATTR { return hn::IfThenElse(hit, hn::Set(f, of_hit), hn::Set(f, of_miss)); };
     const VF before = hn::IfThenElse(existing, hn::LoadU(f, values + i), hn::Set(f, o.start));
     const MF settled = hn::Or(hn::Ge(before, chosen(settled_at.hit_from, settled_at.miss_from)),
                               hn::Le(before, chosen(settled_at.hit_to, settled_at.miss_to)));

@@ -26,7 +26,8 @@ class CubeLists {
   explicit CubeLists(std::span<const LocalCube> cubes) : n_((cubes.size() + 7) / 8 * 8) {
     for (std::size_t i = 0; i < cubes.size(); ++i) {
       const LocalCube& c = cubes[i];
-      const std::array<int, kLists> all{1, c.x, c.y, c.z, c.x * c.x, c.x * c.y, c.x * c.z, c.y * c.y, c.y * c.z, c.z * c.z};
+      const std::array<int, kLists> all{1,         c.x,       c.y,       c.z,       c.x * c.x,
+                                        c.x * c.y, c.x * c.z, c.y * c.y, c.y * c.z, c.z * c.z};
       for (std::size_t k = 0; k < kLists; ++k) lists_[k][i] = static_cast<std::int16_t>(all[k]);
     }
     for (std::size_t i = cubes.size(); i < n_; ++i)
@@ -37,10 +38,10 @@ class CubeLists {
   template <class Counts>
   void choose(Counts&& counts) {
     for (std::size_t i = 0; i < n_; ++i)
-      chosen_[i] = counts(static_cast<float>(lists_[1][i]), static_cast<float>(lists_[2][i]),
-                          static_cast<float>(lists_[3][i]))
-                       ? std::int16_t{1}
-                       : std::int16_t{0};
+      chosen_[i] =
+          counts(static_cast<float>(lists_[1][i]), static_cast<float>(lists_[2][i]), static_cast<float>(lists_[3][i]))
+              ? std::int16_t{1}
+              : std::int16_t{0};
   }
 
   /// Of the chosen ones: how many; the sums of x, y, z; of xx, xy, xz, yy, yz, zz.
@@ -168,8 +169,9 @@ bool GroundEstimation::standsOut(const RegionMap& map, const Column& column, con
     for (int dy = -1; dy <= 1; ++dy) {
       const Column* other = dx == 0 && dy == 0 ? nullptr : column.near(dx, dy);
       if (other == nullptr || !other->has_ground) continue;
-      const float above = other->ground.above(half - static_cast<float>(dx) * size, half - static_cast<float>(dy) * size,
-                                              z + static_cast<float>(int{column.base_z} - int{other->base_z}) * size);
+      const float above =
+          other->ground.above(half - static_cast<float>(dx) * size, half - static_cast<float>(dy) * size,
+                              z + static_cast<float>(int{column.base_z} - int{other->base_z}) * size);
       if (static_cast<double>(above) * resolution_ > config_.max_step) return true;
     }
   }

@@ -81,13 +81,14 @@ void removeLeftovers(const RegionMap& map, std::span<const OcTreeKey> changed, i
   if (interval > 0) loose.addThinnedColumns(interval);
   std::vector<LooseOctant> octants = loose.take();
   std::erase_if(octants, [&](const LooseOctant& octant) {
-    const Neighbourhood near = lookAround(
-        map, map.cornerOf(*octant.region, octant.octant), reach,
-        [](const Region& region, std::size_t o) { return pastOf(region.octant(o)).gone & ~region.octant(o).occupied; });
+    const Neighbourhood near =
+        lookAround(map, map.cornerOf(*octant.region, octant.octant), reach, [](const Region& region, std::size_t o) {
+          return historyOf(region.octant(o)).gone & ~region.octant(o).occupied;
+        });
     return near.moving < least || !near.isMoving(config.share, config.others);
   });
   for (const LooseOctant& octant : octants) {  // all were found before any goes
-    const std::uint64_t cubes = knownHits(countsOf(octant.region->octant(octant.octant)).hits, octant.cubes);
+    const std::uint64_t cubes = knownHits(historyOf(octant.region->octant(octant.octant)).hits, octant.cubes);
     if (cubes == 0) continue;
     octant.region->remove(octant.octant, cubes);
     result.removed.push_back({map.cornerOf(*octant.region, octant.octant), cubes, false});

@@ -35,9 +35,9 @@ std::size_t MovingHits::reject(const RegionMap& map, const ScanTrace& trace, con
     const Octant& octant = *at.octant;
     std::uint64_t come = octant.appeared;
     if (come != 0) {
-      const Neighbourhood around =
-          lookAround(map, at.corner, kFarthestAround,
-                     [&](const Region& r, std::size_t n) { return r.isHitBy(trace.scan, n) ? r.octant(n).appeared : 0; });
+      const Neighbourhood around = lookAround(map, at.corner, kFarthestAround, [&](const Region& r, std::size_t n) {
+        return r.isHitBy(trace.scan, n) ? r.octant(n).appeared : 0;
+      });
       if (around.moving < least_come_ || !around.isMoving(config_.look_back.share)) come = 0;
     }
     forEachCell(octant.hit, at.corner, shift, [&](const OcTreeKey& corner, std::uint64_t hit) {
@@ -65,7 +65,7 @@ std::size_t MovingHits::reject(const RegionMap& map, const ScanTrace& trace, con
                 });
     if (out == 0) return;
     forEachBit(out, [&](int bit) {
-      if (countsOf(octant).hits[static_cast<std::size_t>(bit)] > config_.free_space.known) out &= ~maskOf(bit);
+      if (historyOf(octant).hits[static_cast<std::size_t>(bit)] > config_.free_space.known) out &= ~maskOf(bit);
     });
     if (out == 0) return;
     rejected += static_cast<std::size_t>(std::popcount(out));
@@ -99,10 +99,9 @@ void MovingHits::growSeeds(const CellGrid& ends) {
 
 /// Whether much in and around an octant is new to the map and little is firm.
 bool MovingHits::isNew(const RegionMap& map, const ScanTrace& trace, const OcTreeKey& corner) const {
-  const Neighbourhood around =
-      lookAround(map, corner, reach_, [&](const Region& r, std::size_t n) -> std::uint64_t {
-        return r.isHitBy(trace.scan, n) ? r.octant(n).fresh & ~r.octant(n).ground : 0;
-      });
+  const Neighbourhood around = lookAround(map, corner, reach_, [&](const Region& r, std::size_t n) -> std::uint64_t {
+    return r.isHitBy(trace.scan, n) ? r.octant(n).fresh & ~r.octant(n).ground : 0;
+  });
   return around.moving >= least_new_ && around.isMoving(config_.evidence.share);
 }
 

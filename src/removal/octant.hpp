@@ -37,14 +37,10 @@ struct CubesAt {
   std::uint64_t cubes;
 };
 
-/// What is counted of an octant's cubes. Apart from the masks, which are read far more often.
-struct OctantCounts {
-  Tally hits{};    ///< scans that have hit a cube
-  Tally misses{};  ///< scans that have seen through it since its last hit; of none that is not doubted
-};
-
-/// What else is remembered of an octant's cubes.
-struct OctantPast {
+/// What is counted and remembered of an octant's cubes. Apart from the masks, which are read far more often.
+struct alignas(64) OctantHistory {
+  Tally hits{};                         ///< scans that have hit a cube
+  Tally misses{};                       ///< that have seen through it since its last hit; of none that is not doubted
   Counters<3> filled;                   ///< looks that have seen something at a cube's place
   std::uint64_t gone = 0;               ///< cubes that have been taken out of the map; some may be there again
   std::uint32_t first = 0;              ///< the first scan that has hit the octant; 0: none

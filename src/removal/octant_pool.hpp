@@ -13,12 +13,6 @@
 
 namespace rhmap {
 
-/// What is kept of an octant besides its masks, which are read far more often.
-struct alignas(64) OctantHistory {
-  OctantCounts counts;
-  OctantPast past;
-};
-
 /// Memory for octants at addresses that stay. The masks lie side by side in the lower part of each piece of memory, so
 /// that neighbours share pages; the histories lie in the upper part, and the address of the masks tells where.
 class OctantPool {
@@ -40,7 +34,7 @@ class OctantPool {
       memory = pieces_.back() + next_++ * sizeof(Octant);
     }
     auto* octant = new (memory) Octant();
-    new (historyPlace(octant)) OctantHistory();
+    new (static_cast<void*>(historyAt(octant))) OctantHistory();
     return octant;
   }
 
@@ -49,9 +43,12 @@ class OctantPool {
     released_ = octant;
   }
 
-  /// Inlined by force: who asks for its memory ahead does nothing else (see BlockIndex::prefetch).
-  [[gnu::always_inline]] static OctantHistory& historyOf(const Octant& octant) {
-    return *std::launder(static_cast<OctantHistory*>(historyPlace(&octant)));
+  /// The history of an octant that was allocated.
+  [[gnu::always_inline]] static OctantHistory* historyAt(const Octant* octant) {
+    const std::size_t offset = reinterpret_cast<std::uintptr_t>(octant) % kLargePieceBytes;
+    std::byte* piece = reinterpret_cast<std::byte*>(const_cast<Octant*>(octant)) - offset;
+    return reinterpret_cast<OctantHistory*>(piece + kInPiece * sizeof(Octant) +
+                                            offset / sizeof(Octant) * sizeof(OctantHistory));
   }
 
   std::size_t memoryUsage() const {
@@ -61,12 +58,6 @@ class OctantPool {
  private:
   static_assert(std::is_trivially_destructible_v<Octant> && std::is_trivially_destructible_v<OctantHistory>);
   static constexpr std::size_t kInPiece = kLargePieceBytes / (sizeof(Octant) + sizeof(OctantHistory));
-
-  [[gnu::always_inline]] static void* historyPlace(const Octant* octant) {
-    const std::size_t offset = reinterpret_cast<std::uintptr_t>(octant) % kLargePieceBytes;
-    std::byte* piece = reinterpret_cast<std::byte*>(const_cast<Octant*>(octant)) - offset;
-    return piece + kInPiece * sizeof(Octant) + offset / sizeof(Octant) * sizeof(OctantHistory);
-  }
 
   void addPiece() {
     pieces_.reserve(pieces_.size() + 1);
@@ -79,11 +70,11 @@ class OctantPool {
   void* released_ = nullptr;     // the last of them; each holds the address of the one before
 };
 
-/// What is counted of an octant's cubes. Of octants of a RegionMap, as the next.
-[[gnu::always_inline]] inline OctantCounts& countsOf(Octant& octant) { return OctantPool::historyOf(octant).counts; }
-[[gnu::always_inline]] inline const OctantCounts& countsOf(const Octant& octant) { return OctantPool::historyOf(octant).counts; }
-/// What else is remembered of them.
-[[gnu::always_inline]] inline OctantPast& pastOf(Octant& octant) { return OctantPool::historyOf(octant).past; }
-[[gnu::always_inline]] inline const OctantPast& pastOf(const Octant& octant) { return OctantPool::historyOf(octant).past; }
+/// Of an octant of a RegionMap. Inlined by force: who asks for its memory ahead does nothing else (see
+/// BlockIndex::prefetch).
+[[gnu::always_inline]] inline OctantHistory& historyOf(Octant& octant) { return *OctantPool::historyAt(&octant); }
+[[gnu::always_inline]] inline const OctantHistory& historyOf(const Octant& octant) {
+  return *OctantPool::historyAt(&octant);
+}
 
 }  // namespace rhmap

@@ -54,7 +54,9 @@ class RangeImage {
   /// Pixels, row by row, from the top.
   std::size_t size() const { return nearest_.size(); }
   /// kEmpty if a pixel shows nothing.
-  float range(std::size_t pixel) const { return std::bit_cast<float>(static_cast<std::uint32_t>(nearest_[pixel] >> 32)); }
+  float range(std::size_t pixel) const {
+    return std::bit_cast<float>(static_cast<std::uint32_t>(nearest_[pixel] >> 32));
+  }
   /// The point of the scan that a pixel shows; below 0: none.
   std::int32_t point(std::size_t pixel) const { return static_cast<std::int32_t>(nearest_[pixel]); }
 

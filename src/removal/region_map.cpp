@@ -31,11 +31,11 @@ void Region::remove(std::size_t o, std::uint64_t old_cubes) {
   from.firm &= ~old_cubes;
   cubes = static_cast<std::uint16_t>(cubes - std::popcount(old_cubes));
   column->stale = column->thinned = true;
-  OctantPast& past = pastOf(from);
-  past.gone |= old_cubes;
-  past.filled.reset(old_cubes);
-  forEachBit(old_cubes, [&, &counts = countsOf(from)](int bit) {
-    counts.hits[static_cast<std::size_t>(bit)] = counts.misses[static_cast<std::size_t>(bit)] = 0;
+  OctantHistory& history = historyOf(from);
+  history.gone |= old_cubes;
+  history.filled.reset(old_cubes);
+  forEachBit(old_cubes, [&](int bit) {
+    history.hits[static_cast<std::size_t>(bit)] = history.misses[static_cast<std::size_t>(bit)] = 0;
   });
 }
 
@@ -137,8 +137,8 @@ void RegionMap::forgetBeyond(const OcTreeKey& centre, int distance) {
 }
 
 std::size_t RegionMap::memoryUsage() const {
-  std::size_t bytes = columns_.memoryUsage() + regions_.memoryUsage() + region_pool_.memoryUsage() +
-                      octant_pool_.memoryUsage();
+  std::size_t bytes =
+      columns_.memoryUsage() + regions_.memoryUsage() + region_pool_.memoryUsage() + octant_pool_.memoryUsage();
   columns_.forEach(
       [&](const Column& column) { bytes += sizeof(Column) + column.regions.capacity() * sizeof(column.regions[0]); });
   return bytes;

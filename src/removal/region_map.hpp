@@ -31,15 +31,15 @@ inline std::uint32_t turnOf(key_type x, key_type y, std::uint32_t scan) { return
 
 /// M_{I_r}: a region, a cube of 4, 8 or 16 cubes an axis. One line of the cache; the places of its octants follow.
 struct alignas(64) Region {
-  key_type x = 0, y = 0, z = 0;      ///< I_r >> bits
-  std::uint16_t cubes = 0;           ///< in the map
-  std::uint32_t scan = 0;            ///< the last scan that hit it
-  bool doubtful = false;             ///< there may be cubes that are doubted
-  std::uint64_t known_octants = 0;   ///< those that a scan has ever hit, or that the tree had cubes in
-  std::uint64_t hit_octants = 0;     ///< those that the scan has hit
-  std::uint64_t fresh_octants = 0;   ///< of these, those with cubes that were not in the map before
-  std::uint64_t loose_octants = 0;   ///< those that may have cubes that are not safe
-  Column* column = nullptr;          ///< the one that it stands in
+  key_type x = 0, y = 0, z = 0;     ///< I_r >> bits
+  std::uint16_t cubes = 0;          ///< in the map
+  std::uint32_t scan = 0;           ///< the last scan that hit it
+  bool doubtful = false;            ///< there may be cubes that are doubted
+  std::uint64_t known_octants = 0;  ///< those that a scan has ever hit, or that the tree had cubes in
+  std::uint64_t hit_octants = 0;    ///< those that the scan has hit
+  std::uint64_t fresh_octants = 0;  ///< of these, those with cubes that were not in the map before
+  std::uint64_t loose_octants = 0;  ///< those that may have cubes that are not safe
+  Column* column = nullptr;         ///< the one that it stands in
 
   /// An octant, in Morton order. Those that are not known are one, without cubes, and must not be written to.
   [[gnu::always_inline]] Octant& octant(std::size_t o) const { return *places()[o]; }
@@ -70,16 +70,16 @@ struct alignas(64) Region {
 /// The regions above each other at one O_r, and H{max,min}(O_r). One line of the cache, and one for who is around: the
 /// ground is looked at from column to column.
 struct alignas(64) Column {
-  key_type x = 0, y = 0;              ///< O_r >> bits
-  key_type h_min = 0xffff, h_max = 0; ///< keys of the lowest and the highest cube; none: max < min
-  bool doubtful = false;              ///< so may one of its regions be
-  bool stale = false;                 ///< cubes were removed since h_min and h_max were computed
-  bool thinned = false;               ///< cubes were removed
-  bool has_ground = false;            ///< `ground` is the ground's, in its base
-  key_type base_z = 0;                ///< that of `base`
-  std::uint16_t at_fit = 0;           ///< cubes of the base at the last try to fit a plane
-  Region* base = nullptr;             ///< where R-GPE looks for ground: the lowest region with a cube
-  std::vector<Region*> regions;       ///< by z, ascending
+  key_type x = 0, y = 0;               ///< O_r >> bits
+  key_type h_min = 0xffff, h_max = 0;  ///< keys of the lowest and the highest cube; none: max < min
+  bool doubtful = false;               ///< so may one of its regions be
+  bool stale = false;                  ///< cubes were removed since h_min and h_max were computed
+  bool thinned = false;                ///< cubes were removed
+  bool has_ground = false;             ///< `ground` is the ground's, in its base
+  key_type base_z = 0;                 ///< that of `base`
+  std::uint16_t at_fit = 0;            ///< cubes of the base at the last try to fit a plane
+  Region* base = nullptr;              ///< where R-GPE looks for ground: the lowest region with a cube
+  std::vector<Region*> regions;        ///< by z, ascending
   Plane ground;
   std::array<Column*, 8> around{};  ///< those beside and across the corners, as far as they are known
 
@@ -193,8 +193,8 @@ class RegionMap {
   std::size_t memoryUsage() const;
 
   /// Visits those that are `due`, of those that may be due by their place: mayBeDue(x, y), due(column), visit(column).
-  /// In the order in which they became known, which is much quicker than by hash. Of their regions the loose octants are
-  /// likely to be needed.
+  /// In the order in which they became known, which is much quicker than by hash. Of their regions the loose octants
+  /// are likely to be needed.
   template <class MayBeDue, class Due, class F>
   void forEachColumn(MayBeDue&& mayBeDue, Due&& due, F&& visit) const {
     constexpr std::size_t kAhead = 12;

@@ -159,8 +159,9 @@ void locatePoints(const KeySpace& keys, const octomap::Pointcloud& points, const
                    .range = scan.range.data(),
                    .cell = scan.cell.data(),
                    .n = 0};
-  const RangeLimits limits{.nearest = static_cast<float>(min_range),
-                           .farthest = max_range < 0 ? std::numeric_limits<float>::max() : static_cast<float>(max_range)};
+  const RangeLimits limits{
+      .nearest = static_cast<float>(min_range),
+      .farthest = max_range < 0 ? std::numeric_limits<float>::max() : static_cast<float>(max_range)};
   const float* first = n == 0 ? nullptr : &points.begin()->x();
   HWY_DYNAMIC_DISPATCH(LocatePoints)(Transform(pose), keys.inverseResolution(), limits, first, n, to);
   for (std::vector<float>* v : {&scan.x, &scan.y, &scan.z, &scan.range}) v->resize(to.n);

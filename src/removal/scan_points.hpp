@@ -15,8 +15,8 @@ namespace rhmap {
 
 /// The points P^B of a scan that count, in the sensor's frame, with the cubes that they fall in.
 struct ScanPoints {
-  std::vector<float> x, y, z;  ///< sensor frame [m]
-  std::vector<float> range;    ///< [m]
+  std::vector<float> x, y, z;       ///< sensor frame [m]
+  std::vector<float> range;         ///< [m]
   std::vector<std::uint64_t> cell;  ///< the cubes, as cell_word names them
   std::size_t given = 0;
   std::size_t dropped = 0;  ///< not finite, outside of the tree, too near or too far

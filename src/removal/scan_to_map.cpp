@@ -155,18 +155,17 @@ class ScanToMapRemoval {
     }
     std::size_t kept = 0;
     for (std::size_t d = 0; d < doubts_.size(); ++d) {
-      if (d + kAhead < doubts_.size()) __builtin_prefetch(&pastOf(*doubts_[d + kAhead].octant));
+      if (d + kAhead < doubts_.size()) __builtin_prefetch(&historyOf(*doubts_[d + kAhead].octant).filled);
       Doubt doubt = doubts_[d];
       const std::uint64_t filled = looks[d].filled, through = looks[d].seen_through;
       if ((filled | through) == 0) continue;
       Octant& octant = *doubt.octant;
-      OctantCounts& counts = countsOf(octant);
-      forEachBit(through, [&](int bit) { countUp(counts.misses[static_cast<std::size_t>(bit)]); });
-      forEachBit(filled & octant.doubted, [&](int bit) { counts.misses[static_cast<std::size_t>(bit)] = 0; });
+      OctantHistory& history = historyOf(octant);
+      forEachBit(through, [&](int bit) { countUp(history.misses[static_cast<std::size_t>(bit)]); });
+      forEachBit(filled & octant.doubted, [&](int bit) { history.misses[static_cast<std::size_t>(bit)] = 0; });
       if (const std::uint64_t loose = filled & ~octant.firm; loose != 0) {
-        OctantPast& past = pastOf(octant);
-        past.filled.countUp(loose);
-        octant.firm |= past.filled.atLeast(static_cast<unsigned>(config_.evidence.filled));
+        history.filled.countUp(loose);
+        octant.firm |= history.filled.atLeast(static_cast<unsigned>(config_.evidence.filled));
       }
       octant.doubted = (octant.doubted & ~filled) | through;
       doubt.region->noteDoubts(doubt.number);
@@ -183,10 +182,11 @@ class ScanToMapRemoval {
     const EvidenceConfig& evidence = config_.evidence;
     for (std::size_t d = 0; d < doubts_.size(); ++d) {
       const Doubt& doubt = doubts_[d];
-      const OctantCounts& counts = countsOf(*doubt.octant);
+      const OctantHistory& history = historyOf(*doubt.octant);
       std::uint64_t seen = 0, due = 0, sure = 0;
       forEachBit(doubt.cubes, [&](int bit) {
-        const int hits = counts.hits[static_cast<std::size_t>(bit)], misses = counts.misses[static_cast<std::size_t>(bit)];
+        const int hits = history.hits[static_cast<std::size_t>(bit)],
+                  misses = history.misses[static_cast<std::size_t>(bit)];
         if (look_.revert_hits > 0 && hits >= look_.revert_hits) return;
         seen |= maskOf(bit);
         if (misses >= doubt.misses) due |= maskOf(bit);

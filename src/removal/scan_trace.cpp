@@ -27,11 +27,11 @@ void mark(const TracedOctant& at, const HitOctant& hit, ScanTrace& trace) {
 /// The hit cubes of an octant: in the map from now on, and with nothing that speaks against them.
 void insert(const TracedOctant& at, int firm) {
   Octant& octant = *at.octant;
-  OctantCounts& counts = countsOf(octant);
+  OctantHistory& history = historyOf(octant);
   octant.fresh = octant.hit & ~octant.occupied;
-  forEachBit(octant.doubted & octant.hit, [&](int bit) { counts.misses[static_cast<std::size_t>(bit)] = 0; });
+  forEachBit(octant.doubted & octant.hit, [&](int bit) { history.misses[static_cast<std::size_t>(bit)] = 0; });
   octant.doubted &= ~octant.hit;
-  octant.firm |= countUp(counts.hits, octant.hit, firm);
+  octant.firm |= countUp(history.hits, octant.hit, firm);
   if (octant.fresh == 0) return;
   at.region->fresh_octants |= std::uint64_t{1} << at.number;
   at.region->add(at.number, octant.fresh);
@@ -92,7 +92,7 @@ void traceScan(RegionMap& map, const ScanOctants& octants, const OcTreeKey& sens
       at.octant = &map.getOrCreate(*at.region, at.number);
       __builtin_prefetch(at.octant);
       __builtin_prefetch(at.region->column);
-      __builtin_prefetch(&countsOf(*at.octant).hits);
+      __builtin_prefetch(&historyOf(*at.octant).hits);
     }
     for (std::size_t i = 0; i < n; ++i) {
       const TracedOctant& at = places[i];

@@ -6,17 +6,17 @@ namespace rhmap {
 void noteStanding(const ScanTrace& trace, const FreeSpace& free_space, const StandingConfig& config) {
   const int shift = free_space.shift();
   const auto askFor = [](const TracedOctant& at) __attribute__((always_inline)) {
-    __builtin_prefetch(&pastOf(*at.octant).first);
+    __builtin_prefetch(&historyOf(*at.octant).first);
   };
   trace.forEachOctant(askFor, [&](const TracedOctant& at) {
     Octant& octant = *at.octant;
-    OctantPast& past = pastOf(octant);
-    if (past.first == 0) past.first = trace.scan;
+    OctantHistory& history = historyOf(octant);
+    if (history.first == 0) history.first = trace.scan;
     const auto scansOf = [&](const OcTreeKey& cell) -> std::uint8_t& {
-      return past.scans[static_cast<std::size_t>(bitOf(cell)) / 8];
+      return history.scans[static_cast<std::size_t>(bitOf(cell)) / 8];
     };
     forEachCell(octant.hit, at.corner, shift, [&](const OcTreeKey& cell, std::uint64_t) { countUp(scansOf(cell)); });
-    if (trace.scan - past.first < static_cast<std::uint32_t>(config.time)) return;
+    if (trace.scan - history.first < static_cast<std::uint32_t>(config.time)) return;
     const std::uint64_t cubes = octant.occupied & ~octant.firm & ~octant.doubted;
     forEachCell(cubes, at.corner, shift, [&](const OcTreeKey& cell, std::uint64_t in_cell) {
       const int scans = scansOf(cell);

@@ -139,8 +139,8 @@ inline Look Visibility::at(const std::array<float, 3>& p, float range, std::int3
   const float centre = ranges_[static_cast<std::size_t>(std::max(pixel, 0))];
   bool unknown = (pixel < 0) | (centre < range - before_);
   // Above the first row's beam nothing would show a surface that runs on towards the sensor: a ceiling.
-  if (pixel < projection_.columns && centre < range * edge_)
-    unknown |= projection_.stepOf(p[0], p[1], p[2]) < kFirstBeam;
+  const bool in_first_row = pixel >= 0 && pixel < projection_.columns;
+  if (in_first_row && centre < range * edge_) unknown |= projection_.stepOf(p[0], p[1], p[2]) < kFirstBeam;
   if (!unknown && centre > range + behind_) return around(p, range, pixel);
   return unknown ? Look::kUnknown : Look::kFilled;
 }

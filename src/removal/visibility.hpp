@@ -85,9 +85,9 @@ class Visibility {
   Projection projection_;
   std::vector<float> ranges_;
   std::unique_ptr<std::array<float, 3>[]> points_;  // of the pixels that show one: sensor's frame [m]
-  std::vector<Farthest> farthest_;            // blocks of 4, 8, 16 ... pixels
-  std::vector<int> middle_;                   // the step in the middle of each row
-  std::vector<Window> windows_;               // for cubes so many steps away; beyond: the last
+  std::vector<Farthest> farthest_;                  // blocks of 4, 8, 16 ... pixels
+  std::vector<int> middle_;                         // the step in the middle of each row
+  std::vector<Window> windows_;                     // for cubes so many steps away; beyond: the last
   float behind_, before_, aside_, aside_share_, surface_, surface_share_, clearance_, skim_, skim_from_, edge_;
   int least_up_;  // rows of a window on each side
 };

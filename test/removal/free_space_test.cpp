@@ -32,9 +32,8 @@ class Hall {
       }
     }
     const ScanTrace trace = test::trace(map_, test::scanOf(cloud), sensor_, ++scans_, {.resolution = kCube});
-    free_space_.observe(trace,
-                        {static_cast<float>(kTreeMaxVal), static_cast<float>(kTreeMaxVal),
-                         static_cast<float>(kTreeMaxVal + lift / kCube)});
+    free_space_.observe(trace, {static_cast<float>(kTreeMaxVal), static_cast<float>(kTreeMaxVal),
+                                static_cast<float>(kTreeMaxVal + lift / kCube)});
   }
   bool isVoid(double x, double y, double z) const { return free_space_.isVoid(cell(x), cell(y), cell(z)); }
   /// In how many followed scans rays have crossed a cell, as far as that is counted.

@@ -28,7 +28,7 @@ using test::occupy;
 /// A cube that one scan has hit.
 Octant& hit(RegionMap& map, const OcTreeKey& cube) {
   Octant& octant = occupy(map, cube);
-  countsOf(map.regionOf(cube)->octant(map.octantOf(cube))).hits[static_cast<std::size_t>(bitOf(cube))] = 1;
+  historyOf(map.regionOf(cube)->octant(map.octantOf(cube))).hits[static_cast<std::size_t>(bitOf(cube))] = 1;
   return octant;
 }
 

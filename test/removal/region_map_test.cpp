@@ -48,7 +48,7 @@ TEST_P(RegionSizes, EachOctantIsALineOfTheCache) {
     occupy(map, cube);
     const Octant& octant = map.regionOf(cube)->octant(map.octantOf(cube));
     EXPECT_EQ(reinterpret_cast<std::uintptr_t>(&octant) % 64, 0U);
-    EXPECT_EQ(reinterpret_cast<std::uintptr_t>(&countsOf(octant).hits) % 64, 0U);
+    EXPECT_EQ(reinterpret_cast<std::uintptr_t>(&historyOf(octant).hits) % 64, 0U);
   }
 }
 
@@ -161,11 +161,11 @@ TEST_P(RegionSizes, NothingIsLeftOfAnOctantThatWasForgotten) {
     Octant& octant = occupy(map, other);
     EXPECT_EQ(octant.occupied, maskOf(bitOf(other)));
     EXPECT_EQ(octant.firm | octant.ground | octant.hit, 0U);
-    EXPECT_EQ(countsOf(octant).hits, Tally{});
-    EXPECT_EQ(pastOf(octant).first, 0U);
+    EXPECT_EQ(historyOf(octant).hits, Tally{});
+    EXPECT_EQ(historyOf(octant).first, 0U);
     octant.firm = octant.ground = octant.hit = ~std::uint64_t{0};
-    countsOf(octant).hits.fill(9);
-    pastOf(octant).first = 5;
+    historyOf(octant).hits.fill(9);
+    historyOf(octant).first = 5;
     for (std::size_t o = 0; o < map.octants(); ++o)
       EXPECT_EQ(map.regionOf(other)->knows(o), o == map.octantOf(other)) << o;
     if (round == 0) memory = map.memoryUsage();

@@ -109,7 +109,7 @@ TEST(ScanToMapRemoval, TakesDoubtsBackWhereItSeesSomething) {
   Octant& octant = occupy(look.map(), in_wall);
   const Region* region = look.map().regionOf(in_wall);
   std::uint8_t& misses =
-      countsOf(region->octant(look.map().octantOf(in_wall))).misses[static_cast<std::size_t>(bitOf(in_wall))];
+      historyOf(region->octant(look.map().octantOf(in_wall))).misses[static_cast<std::size_t>(bitOf(in_wall))];
   octant.doubted = maskOf(bitOf(in_wall));
   misses = 5;
   look.scan(true);
@@ -146,9 +146,9 @@ TEST(ScanToMapRemoval, IsSureOfWhatItOftenSeesThroughNearFirmCubes) {
     look.map().forEachColumn([&](Column& column) {
       for (const auto& region : column.regions)
         forEachBit(region->known_octants, [&](int o) {
-          OctantCounts& counts = countsOf(region->octant(static_cast<std::size_t>(o)));
-          counts.hits.fill(hits);
-          counts.misses.fill(0);
+          OctantHistory& history = historyOf(region->octant(static_cast<std::size_t>(o)));
+          history.hits.fill(hits);
+          history.misses.fill(0);
         });
     });
     for (int i = 0; i < 4; ++i)
@@ -259,9 +259,9 @@ TEST(ScanToMapRemoval, LeavesWhatHasStoppedToTheBackEndsGuard) {
     look.map().forEachColumn([](Column& column) {
       for (const auto& region : column.regions)
         forEachBit(region->known_octants, [&](int o) {
-          OctantCounts& counts = countsOf(region->octant(static_cast<std::size_t>(o)));
-          counts.hits.fill(20);
-          counts.misses.fill(0);
+          OctantHistory& history = historyOf(region->octant(static_cast<std::size_t>(o)));
+          history.hits.fill(20);
+          history.misses.fill(0);
         });
     });
     EXPECT_EQ(cubesOf(look.scan()) > 0, revert_hits == 0);

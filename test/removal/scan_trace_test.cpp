@@ -40,7 +40,7 @@ TEST_P(TracedRegionSizes, CountTheScansThatHitEachCube) {
     const auto before = hits;
     for (const Cube& c : now) ++hits[c];
     const ScanTrace trace = test::trace(map, pointsIn(cubes), {kTreeMaxVal, kTreeMaxVal, kTreeMaxVal}, scan,
-                                      {.reach = 50, .resolution = kCube, .firm = kFirm});
+                                        {.reach = 50, .resolution = kCube, .firm = kFirm});
     ASSERT_EQ(trace.columns.size(), columns.size());
     for (const ScanColumn& c : trace.columns) {
       const auto& [n, low, high] = columns.at({c.column->x, c.column->y});
@@ -55,7 +55,7 @@ TEST_P(TracedRegionSizes, CountTheScansThatHitEachCube) {
       const Octant& octant = region->octant(map.octantOf(cube));
       const std::uint64_t mask = maskOf(bitOf(cube));
       ASSERT_TRUE(octant.occupied & mask);
-      EXPECT_EQ(countsOf(octant).hits[static_cast<std::size_t>(bitOf(cube))], count);
+      EXPECT_EQ(historyOf(octant).hits[static_cast<std::size_t>(bitOf(cube))], count);
       EXPECT_EQ((octant.firm & mask) != 0, count >= kFirm);
       if (!region->isHitBy(scan, map.octantOf(cube))) {
         EXPECT_EQ(now.count(at), 0U);
