@@ -165,15 +165,13 @@ bool GroundEstimation::standsOut(const RegionMap& map, const Column& column, con
   if (config_.max_step <= 0) return false;
   const auto size = static_cast<float>(map.size()), half = size / 2;
   const float z = heightOf(plane, size);
-  for (int dx = -1; dx <= 1; ++dx) {
-    for (int dy = -1; dy <= 1; ++dy) {
-      const Column* other = dx == 0 && dy == 0 ? nullptr : column.near(dx, dy);
-      if (other == nullptr || !other->has_ground) continue;
-      const float above =
-          other->ground.above(half - static_cast<float>(dx) * size, half - static_cast<float>(dy) * size,
-                              z + static_cast<float>(int{column.base_z} - int{other->base_z}) * size);
-      if (static_cast<double>(above) * resolution_ > config_.max_step) return true;
-    }
+  for (std::size_t i = 0; i < kAround.size(); ++i) {
+    const Column* other = column.around[i];
+    if (other == nullptr || !other->has_ground) continue;
+    const auto dx = static_cast<float>(kAround[i].x), dy = static_cast<float>(kAround[i].y);
+    const float above = other->ground.above(half - dx * size, half - dy * size,
+                                            z + static_cast<float>(int{column.base_z} - int{other->base_z}) * size);
+    if (static_cast<double>(above) * resolution_ > config_.max_step) return true;
   }
   return false;
 }
@@ -237,8 +235,7 @@ void GroundEstimation::mark(const RegionMap& map, const Column& column, Region& 
   const bool is_base = &region == column.base;
   if (is_base || config_.across_regions) consider(&column);
   if (config_.across_regions && !(is_base && column.has_ground)) {
-    for (const auto& [dx, dy] : {std::pair(-1, 0), std::pair(1, 0), std::pair(0, -1), std::pair(0, 1)})
-      consider(column.near(dx, dy));
+    for (std::size_t i = 0; i < kBeside; ++i) consider(column.around[i]);
   }
   if (only_fresh && n == 0) return;
   forEachBit(only_fresh ? region.fresh_octants : region.known_octants, [&](int number) {

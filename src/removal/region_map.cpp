@@ -64,13 +64,9 @@ Column& RegionMap::getOrCreate(key_type x, key_type y) {
   auto* column = new Column{.x = x, .y = y, .regions = {}, .ground = {}};
   columns_.insert(nameOf(x, y), column);
   in_order_.push_back({x, y, column});
-  for (int dx = -1; dx <= 1; ++dx) {
-    for (int dy = -1; dy <= 1; ++dy) {
-      Column* other = dx == 0 && dy == 0 ? nullptr : find(x + dx, y + dy);
-      if (other == nullptr) continue;
-      column->near(dx, dy) = other;
-      other->near(-dx, -dy) = column;
-    }
+  for (std::size_t i = 0; i < kAround.size(); ++i) {
+    column->around[i] = find(x + kAround[i].x, y + kAround[i].y);
+    if (column->around[i] != nullptr) column->around[i]->around[i ^ 1] = column;
   }
   for (const auto& [corner, cubes] :
        read_(static_cast<key_type>(x << bits_), static_cast<key_type>(y << bits_), size())) {
@@ -124,7 +120,8 @@ void RegionMap::forgetBeyond(const OcTreeKey& centre, int distance) {
     const int dx = (column->x << bits_) + half - centre[0], dy = (column->y << bits_) + half - centre[1];
     if (std::max(std::abs(dx), std::abs(dy)) <= distance) return false;
     columns_.erase(nameOf(column->x, column->y));
-    column->forEachNear([](Column& other, int dx, int dy) { other.near(-dx, -dy) = nullptr; });
+    for (std::size_t i = 0; i < kAround.size(); ++i)
+      if (column->around[i] != nullptr) column->around[i]->around[i ^ 1] = nullptr;
     for (Region* region : column->regions) {
       regions_.erase(nameOf(region->x, region->y, region->z));
       forEachBit(region->known_octants,

@@ -67,6 +67,14 @@ struct alignas(64) Region {
   void remove(std::size_t o, std::uint64_t old_cubes);
 };
 
+/// Where the columns around one are, in columns: four beside it, four across its corners. What is at kAround[i] from a
+/// column has that at kAround[i ^ 1].
+struct Offset {
+  int x, y;
+};
+inline constexpr std::array<Offset, 8> kAround{{{-1, 0}, {1, 0}, {0, -1}, {0, 1}, {-1, -1}, {1, 1}, {-1, 1}, {1, -1}}};
+inline constexpr std::size_t kBeside = 4;
+
 /// The regions above each other at one O_r, and H{max,min}(O_r). One line of the cache, and one for who is around: the
 /// ground is looked at from column to column.
 struct alignas(64) Column {
@@ -81,21 +89,7 @@ struct alignas(64) Column {
   Region* base = nullptr;              ///< where R-GPE looks for ground: the lowest region with a cube
   std::vector<Region*> regions;        ///< by z, ascending
   Plane ground;
-  std::array<Column*, 8> around{};  ///< those beside and across the corners, as far as they are known
-
-  /// One of those around, `dx` and `dy` (-1 to 1, not both 0) places away; null if it is not known.
-  Column*& near(int dx, int dy) {
-    const int place = 3 * (dy + 1) + dx + 1;
-    return around[static_cast<std::size_t>(place > 4 ? place - 1 : place)];
-  }
-  const Column* near(int dx, int dy) const { return const_cast<Column*>(this)->near(dx, dy); }
-  /// Visits those that are known: visit(column, dx, dy).
-  template <class F>
-  void forEachNear(F&& visit) {
-    for (int dy = -1; dy <= 1; ++dy)
-      for (int dx = -1; dx <= 1; ++dx)
-        if (Column* other = dx == 0 && dy == 0 ? nullptr : near(dx, dy)) visit(*other, dx, dy);
-  }
+  std::array<Column*, 8> around{};  ///< those at kAround from it; null where none is known
 
   /// With cubes from one height to another.
   void raise(int low, int high) {

@@ -140,12 +140,9 @@ TEST_P(RegionSizes, ColumnsKnowThoseAroundThem) {
     for (int i = 0; i < 300; ++i) occupy(map, cubes());
     map.forgetBeyond({kTreeMaxVal + 30, kTreeMaxVal, kTreeMaxVal}, 60);
     map.forEachColumn([&](Column& column) {
-      for (int dx = -1; dx <= 1; ++dx) {
-        for (int dy = -1; dy <= 1; ++dy) {
-          if (dx == 0 && dy == 0) continue;
-          EXPECT_EQ(column.near(dx, dy), map.find(column.x + dx, column.y + dy));
-          known += column.near(dx, dy) != nullptr;
-        }
+      for (std::size_t i = 0; i < kAround.size(); ++i) {
+        EXPECT_EQ(column.around[i], map.find(column.x + kAround[i].x, column.y + kAround[i].y));
+        known += column.around[i] != nullptr;
       }
     });
   }

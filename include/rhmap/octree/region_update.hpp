@@ -88,8 +88,7 @@ class RegionUpdate {
       const std::uint8_t existing = mask(region, octet);
       if (existing != 0) {
         const auto after = static_cast<std::uint8_t>(existing | octet_hit | octet_free);
-        NODE* cells = after == existing ? editor_.nodes(region, octet) : makeCells(region, octet, after, nullptr);
-        note(octet, cells, parents + i, octet_hit, octet_free, existing, after, 0);
+        note(octet, makeCells(region, octet, after, nullptr), parents + i, octet_hit, octet_free, existing, after, 0);
       } else {
         enter(region, top, i, octet_hit, octet_free);
       }
