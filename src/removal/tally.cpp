@@ -6,8 +6,6 @@
 #include <hwy/foreach_target.h>  // compiles this file once for every instruction set
 #include <hwy/highway.h>
 
-#include <bit>
-
 HWY_BEFORE_NAMESPACE();
 namespace rhmap::HWY_NAMESPACE {
 namespace hn = hwy::HWY_NAMESPACE;

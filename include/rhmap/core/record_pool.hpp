@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstddef>
+#include <cstdint>
 #include <cstring>
 #include <vector>
 
@@ -13,8 +14,8 @@ namespace rhmap {
 class RecordPool {
  public:
   /// `bytes`: of a record, that of a pointer or more. Multiples of an alignment (up to kLargePieceBytes) are aligned
-  /// so.
-  explicit RecordPool(std::size_t bytes) : bytes_(bytes) {}
+  /// so. `apart`: of what belongs to each but lies apart, so that the records are dense; see apartOf().
+  explicit RecordPool(std::size_t bytes, std::size_t apart = 0) : bytes_(bytes), apart_(apart) {}
   RecordPool(const RecordPool&) = delete;
   RecordPool& operator=(const RecordPool&) = delete;
   ~RecordPool() { clear(); }
@@ -36,6 +37,14 @@ class RecordPool {
     released_ = record;
   }
 
+  /// What lies apart of a record: in the order of the records, behind all of those in the same piece of memory. Inlined
+  /// by force, for who only asks for its memory (see BlockIndex::prefetch).
+  [[gnu::always_inline]] static void* apartOf(const void* record, std::size_t bytes, std::size_t apart) {
+    const std::size_t offset = reinterpret_cast<std::uintptr_t>(record) % kLargePieceBytes;
+    char* piece = static_cast<char*>(const_cast<void*>(record)) - offset;
+    return piece + inPiece(bytes, apart) * bytes + offset / bytes * apart;
+  }
+
   void clear() {
     for (void* piece : pieces_) freeLargePiece(piece);
     pieces_ = decltype(pieces_)();
@@ -44,11 +53,17 @@ class RecordPool {
     next_ = end_ = nullptr;
   }
 
-  std::size_t memoryUsage() const { return capacity_ * bytes_ - static_cast<std::size_t>(end_ - next_); }
+  std::size_t memoryUsage() const {
+    return (capacity_ - static_cast<std::size_t>(end_ - next_) / bytes_) * (bytes_ + apart_);
+  }
 
  private:
+  static constexpr std::size_t inPiece(std::size_t bytes, std::size_t apart) {
+    return kLargePieceBytes / (bytes + apart);
+  }
+
   void addPiece() {
-    const std::size_t records = kLargePieceBytes / bytes_;
+    const std::size_t records = inPiece(bytes_, apart_);
     pieces_.reserve(pieces_.size() + 1);
     void* piece = allocateLargePiece(!pieces_.empty());  // small maps stay small
     pieces_.push_back(piece);
@@ -57,7 +72,7 @@ class RecordPool {
     end_ = next_ + records * bytes_;
   }
 
-  std::size_t bytes_;
+  std::size_t bytes_, apart_;
   std::vector<void*> pieces_;
   void* released_ = nullptr;  // the last of them; each holds the address of the one before
   std::size_t capacity_ = 0;  // records
