@@ -95,9 +95,9 @@ Neighbourhood lookAround(const RegionMap& map, const OcTreeKey& corner, int reac
     const std::uint64_t moving = movingIn(region, o) & within;
     const std::uint64_t firm = octant.firm & ~octant.doubted & ~octant.ground & ~moving & within;
     const std::uint64_t others = octant.occupied & ~octant.ground & ~moving & ~firm & within;
-    if (moving != 0) around.moving += std::popcount(moving);  // most have none of either
-    if (firm != 0) around.firm += std::popcount(firm);
-    if (others != 0) around.others += std::popcount(others);
+    if (moving != 0) around.moving += popcount(moving);  // most have none of either
+    if (firm != 0) around.firm += popcount(firm);
+    if (others != 0) around.others += popcount(others);
   });
   return around;
 }

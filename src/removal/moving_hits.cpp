@@ -68,7 +68,7 @@ std::size_t MovingHits::reject(const RegionMap& map, const ScanTrace& trace, con
       if (historyOf(octant).hits[static_cast<std::size_t>(bit)] > config_.free_space.known) out &= ~maskOf(bit);
     });
     if (out == 0) return;
-    rejected += static_cast<std::size_t>(std::popcount(out));
+    rejected += static_cast<std::size_t>(popcount(out));
     if (const std::uint64_t known = out & ~octant.fresh; known != 0) removed.push_back({at.corner, known, false});
     at.region->remove(at.number, out);
     rejected_from_.push_back(at.corner);

@@ -29,7 +29,7 @@ void Region::remove(std::size_t o, std::uint64_t old_cubes) {
   from.safe &= ~old_cubes;
   from.doubted &= ~old_cubes;
   from.firm &= ~old_cubes;
-  cubes = static_cast<std::uint16_t>(cubes - std::popcount(old_cubes));
+  cubes = static_cast<std::uint16_t>(cubes - popcount(old_cubes));
   column->stale = column->thinned = true;
   OctantHistory& history = historyOf(from);
   history.gone |= old_cubes;

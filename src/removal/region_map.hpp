@@ -59,7 +59,7 @@ struct alignas(64) Region {
   void add(std::size_t o, std::uint64_t new_cubes) {
     octant(o).occupied |= new_cubes;
     loose_octants |= std::uint64_t{new_cubes != 0} << o;
-    cubes = static_cast<std::uint16_t>(cubes + std::popcount(new_cubes));
+    cubes = static_cast<std::uint16_t>(cubes + popcount(new_cubes));
   }
   /// Notes the doubtful cubes of an octant, if there are any.
   void noteDoubts(std::size_t o);

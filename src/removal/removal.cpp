@@ -46,7 +46,10 @@ RhMap::Removal::Removal(RhMap& tree, const RemovalConfig& config)
     : tree_(tree),
       config_(config),
       resolution_(tree.getResolution()),
-      regions_(config.region_size, [&tree](key_type x, key_type y, int size) { return readColumn(tree, x, y, size); }),
+      regions_(config.region_size,
+               [&tree](key_type x, key_type y, int size) {
+                 return readColumn(*tree.store_, tree.getOccupancyThresLog(), x, y, size);
+               }),
       ground_(config.ground, resolution_),
       free_space_(config.free_space, resolution_),
       moving_hits_(config, resolution_),
@@ -178,22 +181,21 @@ std::size_t RhMap::Removal::write(const octomap::Pointcloud& points, const octom
   trace_.forEachRegion([&](const Region& region) {
     for (std::size_t first = 0; first < regions_.octants(); first += octants) {
       const std::uint64_t word = cell_word::fromKey(regions_.cornerOf(region, first));
-      RegionMasks hits{};
-      hits.region = word >> 9;
+      std::array<std::uint64_t, 8> hits{};
       std::size_t cubes = 0;
       forEachBit(region.hit_octants >> first & 0xff, [&](int o) {
         const std::size_t number = first + static_cast<std::size_t>(o);
         const Octant& octant = region.octant(number);
         const std::uint64_t hit = octant.hit & octant.occupied;
-        hits.hit[(word >> 6 & 7) + static_cast<std::size_t>(o)] = hit;
-        cubes += static_cast<std::size_t>(std::popcount(hit));
+        hits[(word >> 6 & 7) + static_cast<std::size_t>(o)] = hit;
+        cubes += static_cast<std::size_t>(popcount(hit));
         if (has_free) forgetFree(regions_.cornerOf(region, number), hit & octant.fresh);
       });
       if (cubes == 0) continue;
       if (are_whole) {
-        cells_.append(hits);
+        cells_.appendHits(word >> 9, hits);
       } else {
-        cells_.mark(hits);
+        cells_.mark({.free = {}, .hit = hits, .region = word >> 9});
       }
       inserted += cubes;
     }
@@ -249,7 +251,7 @@ void RhMap::Removal::refreshAbove(const OcTreeKey& cube) {
 
 void RhMap::Removal::erase(const RemovalResult& result, ScanReport& report) {
   for (const RemovedCubesOf& removed : result.removed) {
-    report.removed += static_cast<std::size_t>(std::popcount(removed.cubes));
+    report.removed += static_cast<std::size_t>(popcount(removed.cubes));
     forEachBit(removed.cubes, [&](int bit) {
       const OcTreeKey cube = cubeOf(removed.corner, bit);
       if (config_.removed == RemovedCubes::kFree && removed.seen_through) {

@@ -44,14 +44,10 @@ void ScanOctants::gather(const ScanPoints& points, double reach) {
     }
     for (std::size_t i = 0; i < n; ++i) {
       const HitOctant& run = runs[i];
-      HitOctant* octant = index_.find(run.name);
-      if (octant == nullptr) {
-        index_.insert(run.name, &list_.emplace_back(run));
-      } else {
-        octant->cubes |= run.cubes;
-        octant->reached |= run.reached;
-        octant->points += run.points;
-      }
+      HitOctant& octant = *index_.findOrInsert(run.name, [&] { return &list_.emplace_back(run.name); });
+      octant.cubes |= run.cubes;
+      octant.reached |= run.reached;
+      octant.points += run.points;
     }
   }
 }

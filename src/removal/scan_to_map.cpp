@@ -170,7 +170,7 @@ class ScanToMapRemoval {
       octant.doubted = (octant.doubted & ~filled) | through;
       doubt.region->noteDoubts(doubt.number);
       if (through == 0) continue;
-      if (doubt.misses == 1) result_.is_protected -= static_cast<std::size_t>(std::popcount(through));
+      if (doubt.misses == 1) result_.is_protected -= static_cast<std::size_t>(popcount(through));
       doubt.cubes = through;
       doubts_[kept++] = doubt;
     }

@@ -4,12 +4,14 @@
 #include <vector>
 
 #include "region_map.hpp"
-#include "rhmap/octree/octree.hpp"
+#include "rhmap/octree/node.hpp"
 
 namespace rhmap {
 
-/// The octants with occupied cells of a tree between (x, y) and (x + size, y + size), in keys, at any height. `x` and
-/// `y` are multiples of `size`, a power of two of at least 4.
-std::vector<CubesAt> readColumn(const OcTree& tree, key_type x, key_type y, int size);
+/// The octants with occupied cells (of this log-odds or more) of a tree between (x, y) and (x + size, y + size), in
+/// keys, at any height. `x` and `y` are multiples of `size`, a power of two of at least 4. From the tree's inside, as
+/// each new column is looked for there, though most are new to it, too.
+std::vector<CubesAt> readColumn(const BlockStore<OcTreeNode>& tree, float occupied_from, key_type x, key_type y,
+                                int size);
 
 }  // namespace rhmap

@@ -172,23 +172,32 @@ TEST_P(RegionSizes, NothingIsLeftOfAnOctantThatWasForgotten) {
   }
 }
 
+/// Shows what readColumn() reads.
+struct OpenTree : OcTree {
+  using OcTree::OcTree;
+  using OcTree::store_;
+};
+
 TEST_P(RegionSizes, AColumnIsReadFromTheTree) {
-  OcTree tree(0.1);
+  OpenTree tree(0.1);
   RandomCubes cubes(4);
   for (int i = 0; i < 3000; ++i) tree.updateNode(cubes(), i % 3 != 0);
-  for (key_type x = 0; x < 8; ++x)  // a pruned leaf of 8 cubes
-    for (key_type y = 0; y < 8; ++y)
-      for (key_type z = 0; z < 8; ++z)
+  for (key_type x = 0; x < 16; ++x)  // a pruned leaf of 16 cubes an edge, above it three of 8, and one of 4
+    for (key_type y = 0; y < 16; ++y)
+      for (key_type z = 0; z < 28; ++z)
+        if (z < 16 || (z < 24 ? x < 8 || y < 8 : x < 4 && y < 4))
         tree.setNodeValue(OcTreeKey(static_cast<key_type>(kTreeMaxVal + x), static_cast<key_type>(kTreeMaxVal + y),
                                     static_cast<key_type>(kTreeMaxVal + 64 + z)),
                           2.0F);
-  RegionMap map(GetParam(), [&](key_type x, key_type y, int size) { return readColumn(tree, x, y, size); });
+  RegionMap map(GetParam(), [&](key_type x, key_type y, int size) { 
+    return readColumn(*tree.store_, tree.getOccupancyThresLog(), x, y, size);
+  });
   std::size_t occupied = 0;
   for (int x = -24; x < 24; ++x) {
     for (int y = -24; y < 24; ++y) {
       map.getOrCreate(static_cast<key_type>((kTreeMaxVal + x) >> map.bits()),
                       static_cast<key_type>((kTreeMaxVal + y) >> map.bits()));
-      for (int z = -24; z < 80; ++z) {
+      for (int z = -24; z < 96; ++z) {
         const OcTreeKey cube(static_cast<key_type>(kTreeMaxVal + x), static_cast<key_type>(kTreeMaxVal + y),
                              static_cast<key_type>(kTreeMaxVal + z));
         const OcTreeNode* node = tree.search(cube);

@@ -75,6 +75,13 @@ inline std::uint64_t masksFrom(const Block& block, int first_octet) {
   return word;
 }
 
+/// Adds nodes to eight octets, the first in the lowest byte.
+inline void addToMasks(Block& block, int first_octet, std::uint64_t nodes) {
+  std::uint64_t word = masksFrom(block, first_octet) | nodes;
+  if constexpr (std::endian::native == std::endian::big) word = __builtin_bswap64(word);
+  std::memcpy(block.mask.data() + first_octet, &word, sizeof word);
+}
+
 /// Bit 7 of each byte that is not 0.
 constexpr std::uint64_t nonzeroBytes(std::uint64_t bytes) {
   constexpr std::uint64_t kLow = 0x7f7f'7f7f'7f7f'7f7f;

@@ -38,6 +38,19 @@ class BlockIndex {
     ++size_;
   }
 
+  /// The value under `key`; where there is none, make(), under this key from now on.
+  template <class Make>
+  T* findOrInsert(std::uint64_t key, Make&& make) {
+    if ((size_ + 1) * 2 > entries_.size()) grow();
+    for (std::size_t i = home(key);; i = next(i)) {
+      if (entries_[i].key == key) return entries_[i].value;
+      if (entries_[i].key != kNoKey) continue;
+      entries_[i] = {key, make()};
+      ++size_;
+      return entries_[i].value;
+    }
+  }
+
   /// Takes out a key that is there.
   void erase(std::uint64_t key) {
     std::size_t hole = home(key);

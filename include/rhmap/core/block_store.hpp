@@ -15,6 +15,7 @@
 #include "rhmap/core/block_journal.hpp"
 #include "rhmap/core/block_search.hpp"
 #include "rhmap/core/octet_pool.hpp"
+#include "rhmap/core/popcount.hpp"
 #include "rhmap/core/record_pool.hpp"
 #include "rhmap/core/region_editor.hpp"
 #include "rhmap/core/trunk.hpp"
@@ -229,7 +230,7 @@ class BlockStore {
     for (unsigned rest = bits; rest != 0; rest &= rest - 1)
       construct(static_cast<void*>(nodes + std::countr_zero(rest)), std::countr_zero(rest));
     block->mask[number] = static_cast<std::uint8_t>(block->mask[number] | bits);
-    size_ += static_cast<std::size_t>(std::popcount(bits));
+    size_ += static_cast<std::size_t>(popcount(bits));
     ++version_;
     return nodes;
   }
@@ -269,7 +270,7 @@ class BlockStore {
     NODE* nodes = nodes_.nodes(block->octet[number]);
     for (unsigned rest = bits; rest != 0; rest &= rest - 1) nodes[std::countr_zero(rest)].~NODE();
     block->mask[number] = static_cast<std::uint8_t>(block->mask[number] & ~bits);
-    size_ -= static_cast<std::size_t>(std::popcount(bits));
+    size_ -= static_cast<std::size_t>(popcount(bits));
     ++version_;
     if (block->mask[number] != 0) return;
     nodes_.release(block->octet[number]);

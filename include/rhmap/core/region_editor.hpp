@@ -8,6 +8,7 @@
 
 #include "rhmap/core/block.hpp"
 #include "rhmap/core/octet_pool.hpp"
+#include "rhmap/core/popcount.hpp"
 
 namespace rhmap {
 
@@ -37,8 +38,14 @@ class alignas(64) RegionEditor {
       region.octet[index(octet)] =
           octet < kMiddleOctet ? pool_->allocateLeaves(*source_) : pool_->allocateInner(*source_, &region, octet);
     mask = static_cast<std::uint8_t>(mask | bits);
-    made_ += std::popcount(bits);
+    made_ += popcount(bits);
     return nodes(region, octet);
+  }
+
+  /// The same for eight octets, the first in the lowest byte. They all exist, as far as they get nodes.
+  void claimEight(Block& region, int first_octet, std::uint64_t bits) {
+    addToMasks(region, first_octet, bits);
+    made_ += popcount(bits);
   }
 
   /// Removes eight nodes without children.

@@ -80,18 +80,22 @@ class RegionUpdate {
       }
       if (!is_new) expand(region, middles, tops[top]);
     }
-    NODE* parents = has_middles ? editor_.nodes(region, middles) : nullptr;  // of the cells that there are
-    for (std::uint64_t rest = nonzeroBytes(hit | free); rest != 0; rest &= rest - 1) {
-      const int i = std::countr_zero(rest) / 8, octet = 8 * top + i;
-      const auto octet_hit = static_cast<std::uint8_t>(hit >> 8 * i);
-      const auto octet_free = static_cast<std::uint8_t>(free >> 8 * i);
-      const std::uint8_t existing = mask(region, octet);
-      if (existing != 0) {
-        const auto after = static_cast<std::uint8_t>(existing | octet_hit | octet_free);
-        note(octet, makeCells(region, octet, after, nullptr), parents + i, octet_hit, octet_free, existing, after, 0);
-      } else {
-        enter(region, top, i, octet_hit, octet_free);
+    const std::uint64_t marks = hit | free, touched = nonzeroBytes(marks);
+    const std::uint64_t existing = masksFrom(region, 8 * top), there = touched & nonzeroBytes(existing);
+    if (there != 0) {
+      NODE* parents = editor_.nodes(region, middles);
+      const std::uint64_t after = existing | (marks & (there >> 7) * 0xff);
+      if (kIsPlain && after != existing) editor_.claimEight(region, 8 * top, after & ~existing);
+      for (std::uint64_t rest = there; rest != 0; rest &= rest - 1) {
+        const int first = std::countr_zero(rest) & ~7, octet = 8 * top + first / 8;
+        const auto of = [first](std::uint64_t word) { return static_cast<std::uint8_t>(word >> first); };
+        NODE* cells = kIsPlain ? editor_.nodes(region, octet) : makeCells(region, octet, of(after), nullptr);
+        note(octet, cells, parents + first / 8, of(hit), of(free), of(existing), of(after), 0);
       }
+    }
+    for (std::uint64_t rest = touched & ~there; rest != 0; rest &= rest - 1) {
+      const int first = std::countr_zero(rest) & ~7;
+      enter(region, top, first / 8, static_cast<std::uint8_t>(hit >> first), static_cast<std::uint8_t>(free >> first));
     }
   }
 

@@ -26,6 +26,7 @@ class ScanApplier {
 
   void apply(const ScanMasks& masks, int num_threads) {
     // One thread makes the blocks, all update what is in them, one goes up from there.
+    regions_.reserve(masks.size());
     masks.forEachRegion([this](const RegionMasks& marks) { regions_.push_back({.marks = &marks}); });
     for (std::size_t i = 0; i < regions_.size(); ++i) {
       if (i + kAhead < regions_.size()) store_.prefetchRegion(regions_[i + kAhead].marks->corner());

@@ -64,8 +64,8 @@ class ScanMasks {
   void markHit(const OcTreeKey& key) { markHit(cell_word::fromKey(key)); }
   void markHit(std::uint64_t cell) { at(cell >> 9).hit[cell >> 6 & 7] |= std::uint64_t{1} << (cell & 63); }
 
-  /// Marks cells of a region that has none yet and will get no others, which is quicker.
-  void append(const RegionMasks& cells) { create(cells.region) = cells; }
+  /// Marks cells as hit, of a region that has no marks yet and will get no others, which is quicker.
+  void appendHits(std::uint64_t region, const std::array<std::uint64_t, 8>& hit) { create(region).hit = hit; }
 
   /// Marks cells of a region.
   void mark(const RegionMasks& cells) {
@@ -95,6 +95,13 @@ class ScanMasks {
         mark(chunk[i]);
       }
     });
+  }
+
+  /// Number of regions with marks.
+  std::size_t size() const {
+    std::size_t size = used_;
+    for (std::size_t c = 0; c + 1 < chunks_in_use_; ++c) size += sizeOf(c);
+    return size;
   }
 
   /// Visits the regions in the order in which they were first marked.
@@ -134,11 +141,7 @@ class ScanMasks {
   static constexpr int kLargestTableBits = 22;
 
   RegionMasks& at(std::uint64_t region) {
-    if (table_ == nullptr) {
-      RegionMasks* known = index_.find(region);
-      if (known == nullptr) index_.insert(region, known = &create(region));
-      return *known;
-    }
+    if (table_ == nullptr) return *index_.findOrInsert(region, [&] { return &create(region); });
     RegionMasks*& known = inTable(region);
     if (known == nullptr) known = &create(region);
     return *known;
