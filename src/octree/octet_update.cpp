@@ -14,15 +14,13 @@ namespace rhmap::HWY_NAMESPACE {
 namespace hn = hwy::HWY_NAMESPACE;
 
 using F = hn::CappedTag<float, 8>;
-using U = hn::RebindToUnsigned<F>;
 using VF = hn::Vec<F>;
 using MF = hn::Mask<F>;
 
 /// Lanes i, i + 1, ... whose bits are set.
 HWY_INLINE MF lanesOf(unsigned bits, std::size_t i) {
-  const U u;
-  const auto lane_bit = hn::Shl(hn::Set(u, 1), hn::Iota(u, static_cast<std::uint32_t>(i)));
-  return hn::RebindMask(F(), hn::Ne(hn::And(hn::Set(u, bits), lane_bit), hn::Zero(u)));
+  const std::uint8_t from_here[8] = {static_cast<std::uint8_t>(bits >> i)};
+  return hn::LoadMaskBits(F(), from_here);
 }
 
 HWY_INLINE unsigned bitsOf(MF lanes, std::size_t i) {

@@ -11,12 +11,10 @@
 namespace rhmap {
 namespace {
 
-LocalCube localCube(std::size_t octant, int bit) {
-  const OcTreeKey corner(static_cast<key_type>(gather3(static_cast<unsigned>(octant)) << 2),
-                         static_cast<key_type>(gather3(static_cast<unsigned>(octant >> 1)) << 2),
-                         static_cast<key_type>(gather3(static_cast<unsigned>(octant >> 2)) << 2));
-  const OcTreeKey cube = cubeOf(corner, bit);
-  return {cube[0], cube[1], cube[2]};
+/// The lowest cube of an octant, from that of its region.
+std::array<int, 3> cornerInRegion(std::size_t octant) {
+  const auto along = [octant](int axis) { return static_cast<int>(gather3(static_cast<unsigned>(octant >> axis)) << 2); };
+  return {along(0), along(1), along(2)};
 }
 
 /// The cubes of a region, each coordinate and each product of two in a list of its own, so that choosing some of them
@@ -24,14 +22,19 @@ LocalCube localCube(std::size_t octant, int bit) {
 class CubeLists {
  public:
   explicit CubeLists(std::span<const LocalCube> cubes) : n_((cubes.size() + 7) / 8 * 8) {
+    std::fill_n(lists_[0].begin(), cubes.size(), std::int16_t{1});
     for (std::size_t i = 0; i < cubes.size(); ++i) {
-      const LocalCube& c = cubes[i];
-      const std::array<int, kLists> all{1,         c.x,       c.y,       c.z,       c.x * c.x,
-                                        c.x * c.y, c.x * c.z, c.y * c.y, c.y * c.z, c.z * c.z};
-      for (std::size_t k = 0; k < kLists; ++k) lists_[k][i] = static_cast<std::int16_t>(all[k]);
+      lists_[1][i] = static_cast<std::int16_t>(cubes[i].x);
+      lists_[2][i] = static_cast<std::int16_t>(cubes[i].y);
+      lists_[3][i] = static_cast<std::int16_t>(cubes[i].z);
     }
-    for (std::size_t i = cubes.size(); i < n_; ++i)
-      for (auto& list : lists_) list[i] = 0;
+    for (std::size_t k = 0; k < 4; ++k)
+      for (std::size_t i = cubes.size(); i < n_; ++i) lists_[k][i] = 0;
+    std::size_t product = 4;
+    for (std::size_t a = 1; a < 4; ++a) {
+      for (std::size_t b = a; b < 4; ++b, ++product)
+        for (std::size_t i = 0; i < n_; ++i) lists_[product][i] = static_cast<std::int16_t>(lists_[a][i] * lists_[b][i]);
+    }
   }
 
   /// Chooses the cubes for which counts(x, y, z) holds.
@@ -89,9 +92,9 @@ float heightOf(const Plane& plane, float size) { return (plane.d - (plane.n[0] +
 
 std::optional<Plane> fitGround(std::span<const LocalCube> cubes, const GroundConfig& config, double resolution) {
   CubeLists lists(cubes);
-  double mean = 0;
-  for (const LocalCube& c : cubes) mean += c.z;
-  mean /= std::max<double>(1, static_cast<double>(cubes.size()));
+  int sum = 0;
+  for (const LocalCube& c : cubes) sum += c.z;
+  const double mean = sum / std::max<double>(1, static_cast<double>(cubes.size()));
   // Not above the mean, where the paper has "smaller than": a flat region of one layer has no smaller ones.
   lists.choose([highest = static_cast<float>(std::floor(mean))](float, float, float z) { return z <= highest; });
   auto plane = principalPlane(lists, config);
@@ -106,9 +109,9 @@ std::optional<Plane> fitGround(std::span<const LocalCube> cubes, const GroundCon
 GroundEstimation::GroundEstimation(const GroundConfig& config, double resolution)
     : config_(config),
       resolution_(resolution),
-      r_gro_(static_cast<float>(config.r_gro / resolution)),
-      depth_(config.depth > 0 ? static_cast<float>(config.depth / resolution) : std::numeric_limits<float>::max()),
-      thin_(config.thin < 0 ? r_gro_ : static_cast<float>(config.thin / resolution)) {}
+      band_{.r_gro = static_cast<float>(config.r_gro / resolution),
+            .depth = config.depth > 0 ? static_cast<float>(config.depth / resolution) : std::numeric_limits<float>::max(),
+            .thin = static_cast<float>((config.thin < 0 ? config.r_gro : config.thin) / resolution)} {}
 
 void GroundEstimation::update(const RegionMap& map, const ScanTrace& trace) const {
   if (!config_.enabled) return;
@@ -206,7 +209,11 @@ void GroundEstimation::fit(const RegionMap& map, Column& column) const {
   std::size_t n = 0;
   forEachBit(column.base->known_octants, [&](int number) {
     const auto o = static_cast<std::size_t>(number);
-    forEachBit(column.base->octant(o).occupied, [&](int bit) { cubes[n++] = localCube(o, bit); });
+    const auto [x, y, z] = cornerInRegion(o);
+    forEachBit(column.base->octant(o).occupied, [&, x = x, y = y, z = z](int bit) {
+      const auto& place = kPlaceInOctant[static_cast<std::size_t>(bit)];
+      cubes[n++] = {x + place[0], y + place[1], z + place[2]};
+    });
   });
   column.at_fit = static_cast<std::uint16_t>(n);
   const std::optional<Plane> plane = fitGround({cubes.data(), n}, config_, resolution_);
@@ -218,12 +225,7 @@ void GroundEstimation::fit(const RegionMap& map, Column& column) const {
 /// Eq. (5), for all cubes of the region and not only for those that the plane was fitted to: ground is thicker than a
 /// layer. What lies just below the plane is ground, too; farther below, the plane is that of something on the ground.
 void GroundEstimation::mark(const RegionMap& map, const Column& column, Region& region, bool only_fresh) const {
-  // The planes that may hold ground of this region, and where this region's lowest cube is in their own.
-  struct Near {
-    const Plane* plane;
-    float dx, dy, dz;
-  };
-  std::array<Near, 6> near;
+  std::array<NearPlane, 6> near;  // those that may hold ground of this region
   std::size_t n = 0;
   const auto size = static_cast<float>(map.size());
   const auto consider = [&](const Column* other) {
@@ -242,20 +244,9 @@ void GroundEstimation::mark(const RegionMap& map, const Column& column, Region& 
     const auto o = static_cast<std::size_t>(number);
     Octant& octant = region.octant(o);
     const std::uint64_t which = only_fresh ? octant.fresh & octant.occupied : octant.occupied;
-    std::uint64_t ground = 0, safe = 0;
-    forEachBit(n == 0 ? 0 : which, [&](int bit) {
-      const LocalCube c = localCube(o, bit);
-      const auto x = static_cast<float>(c.x), y = static_cast<float>(c.y), z = static_cast<float>(c.z);
-      float lowest = r_gro_;
-      for (std::size_t i = 0; i < n; ++i) {
-        const float above = near[i].plane->above(x + near[i].dx, y + near[i].dy, z + near[i].dz);
-        if (above >= -depth_) lowest = std::min(lowest, above);
-      }
-      if (lowest < r_gro_) ground |= maskOf(bit);
-      if (lowest <= thin_) safe |= maskOf(bit);
-    });
-    octant.ground = (octant.ground & ~which) | ground;
-    octant.safe = (octant.safe & ~which) | (ground & safe);
+    const GroundCubes cubes = nearGround({near.data(), n}, cornerInRegion(o), band_);
+    octant.ground = (octant.ground & ~which) | (cubes.ground & which);
+    octant.safe = (octant.safe & ~which) | (cubes.safe & which);
     const bool is_loose = (octant.occupied & ~octant.safe) != 0;
     region.loose_octants = (region.loose_octants & ~maskOf(number)) | std::uint64_t{is_loose} << o;
   });

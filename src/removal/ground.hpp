@@ -4,6 +4,7 @@
 #include <optional>
 #include <span>
 
+#include "near_ground.hpp"
 #include "region_map.hpp"
 #include "rhmap/removal/removal_config.hpp"
 #include "scan_trace.hpp"
@@ -38,7 +39,7 @@ class GroundEstimation {
 
   GroundConfig config_;
   double resolution_;
-  float r_gro_, depth_, thin_;  // [cubes]
+  GroundBand band_;
 };
 
 }  // namespace rhmap

@@ -63,12 +63,19 @@ inline std::size_t mortonOf(const OcTreeKey& cube) {
 /// Bit of a cube in its octant.
 inline int bitOf(const OcTreeKey& cube) { return static_cast<int>(mortonOf(cube) & 63); }
 inline constexpr std::uint64_t maskOf(int bit) { return std::uint64_t{1} << bit; }
+/// Where the cube of a bit is in its octant.
+inline constexpr std::array<std::array<std::uint8_t, 3>, 64> kPlaceInOctant = [] {
+  std::array<std::array<std::uint8_t, 3>, 64> places{};
+  for (unsigned bit = 0; bit < 64; ++bit)
+    for (unsigned axis = 0; axis < 3; ++axis)
+      places[bit][axis] = static_cast<std::uint8_t>((bit >> axis & 1) | (bit >> (axis + 2) & 2));
+  return places;
+}();
 /// The cube of a bit, from the octant's lowest cube.
 inline OcTreeKey cubeOf(const OcTreeKey& corner, int bit) {
-  const auto b = static_cast<unsigned>(bit);
-  const auto along = [b](unsigned axis) { return (b >> axis & 1) | (b >> (axis + 2) & 2); };
-  return {static_cast<key_type>(corner[0] + along(0)), static_cast<key_type>(corner[1] + along(1)),
-          static_cast<key_type>(corner[2] + along(2))};
+  const auto& place = kPlaceInOctant[static_cast<std::size_t>(bit)];
+  return {static_cast<key_type>(corner[0] + place[0]), static_cast<key_type>(corner[1] + place[1]),
+          static_cast<key_type>(corner[2] + place[2])};
 }
 /// The cubes of an octant with this z in it (0 ... 3).
 inline constexpr std::uint64_t layerOf(int z) {
