@@ -116,8 +116,15 @@ GroundEstimation::GroundEstimation(const GroundConfig& config, double resolution
 void GroundEstimation::update(const RegionMap& map, const ScanTrace& trace) const {
   if (!config_.enabled) return;
   const auto columnAt = [&](std::size_t i) { return trace.columns[i].column; };
-  const auto none = [](const Region&) { return std::uint64_t{0}; };  // of octants few are needed
-  visitColumns(trace.columns.size(), columnAt, none, [&](Column& column) {
+  const auto askFor = [&](const Column& column) __attribute__((always_inline)) {
+    const bool to_fit = column.base != nullptr && hasGrown(column);
+    for (const Region* region : column.regions) {
+      if (region->z > column.base_z + 1) break;
+      prefetchOctants(*region, to_fit ? region->known_octants : region->scan == trace.scan ? region->fresh_octants : 0);
+    }
+    for (std::size_t i = 0; i < kBeside; ++i) __builtin_prefetch(column.around[i]);
+  };
+  visitColumns(trace.columns.size(), columnAt, askFor, [&](Column& column) {
     Region* lowest = column.lowest();
     if (lowest == nullptr) return;
     bool anew = lowest != column.base;
@@ -149,12 +156,16 @@ void GroundEstimation::setBase(Column& column, Region* lowest) const {
   column.at_fit = 0;
 }
 
-/// Eq. (4): the lowest region of its column; with cubes that no fit has seen yet, so that each region is fitted a few
-/// times only; and with occupied neighbours, as noise has none.
+/// The base of a column has cubes that no fit has seen yet, so many that each region is fitted a few times only.
+bool GroundEstimation::hasGrown(const Column& column) const {
+  const int cubes = column.base->cubes;
+  return cubes >= config_.min_cubes && !(cubes < column.at_fit * (1 + config_.min_growth));
+}
+
+/// Eq. (4): the lowest region of its column, if it has grown; and with occupied neighbours, as noise has none.
 bool GroundEstimation::isCandidate(const Column& column) const {
+  if (!hasGrown(column)) return false;
   const Region& region = *column.base;
-  const int cubes = region.cubes;
-  if (cubes < config_.min_cubes || cubes < column.at_fit * (1 + config_.min_growth)) return false;
   for (const Column* beside : column.around) {
     if (beside == nullptr) continue;
     for (const Region* other : beside->regions)

@@ -31,6 +31,7 @@ class GroundEstimation {
 
  private:
   void setBase(Column& column, Region* lowest) const;
+  bool hasGrown(const Column& column) const;
   bool isCandidate(const Column& column) const;
   bool standsOut(const RegionMap& map, const Column& column, const Plane& plane) const;
   bool isRaised(const RegionMap& map, const Column& column, const Plane& plane) const;

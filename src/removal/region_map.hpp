@@ -104,19 +104,23 @@ struct alignas(64) Column {
   }
 };
 
-/// Visits the columns columnAt(0) ... columnAt(n - 1). They lie all over the memory: asks for them, their lists, their
-/// regions and of these the octants `needed` (a mask) some time before they are needed.
-template <class ColumnAt, class Needed, class F>
-void visitColumns(std::size_t n, ColumnAt&& columnAt, Needed&& needed, F&& visit) {
+/// Asks for these octants of a region (see BlockIndex::prefetch).
+[[gnu::always_inline]] inline void prefetchOctants(const Region& region, std::uint64_t octants) {
+  for (; octants != 0; octants &= octants - 1)
+    __builtin_prefetch(&region.octant(static_cast<std::size_t>(std::countr_zero(octants))));
+}
+
+/// Visits the columns columnAt(0) ... columnAt(n - 1). They lie all over the memory: asks for them, their lists and their
+/// regions some time before they are needed, and then askFor(column) for what else is.
+template <class ColumnAt, class AskFor, class F>
+void visitColumns(std::size_t n, ColumnAt&& columnAt, AskFor&& askFor, F&& visit) {
   constexpr std::size_t kAhead = 4;
   for (std::size_t i = 0; i < n; ++i) {
     if (i + 4 * kAhead < n) __builtin_prefetch(columnAt(i + 4 * kAhead));
     if (i + 3 * kAhead < n) __builtin_prefetch(columnAt(i + 3 * kAhead)->regions.data());
     if (i + 2 * kAhead < n)
       for (const Region* region : columnAt(i + 2 * kAhead)->regions) Region::prefetch(region);
-    if (i + kAhead < n)
-      for (const Region* region : columnAt(i + kAhead)->regions)
-        forEachBit(needed(*region), [&](int o) { __builtin_prefetch(&region->octant(static_cast<std::size_t>(o))); });
+    if (i + kAhead < n) askFor(static_cast<const Column&>(*columnAt(i + kAhead)));
     visit(*columnAt(i));
   }
 }
@@ -200,8 +204,11 @@ class RegionMap {
       if (i + kAhead < columns.size()) __builtin_prefetch(columns[i + kAhead]);
       if (due(*columns[i])) columns[n++] = columns[i];
     }
+    const auto askFor = [](const Column& column) __attribute__((always_inline)) {
+      for (const Region* region : column.regions) prefetchOctants(*region, region->loose_octants);
+    };
     visitColumns(
-        n, [&](std::size_t i) { return columns[i]; }, [](const Region& region) { return region.loose_octants; }, visit);
+        n, [&](std::size_t i) { return columns[i]; }, askFor, visit);
   }
   template <class F>
   void forEachColumn(F&& visit) const {
