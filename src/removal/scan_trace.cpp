@@ -8,7 +8,8 @@
 namespace rhmap {
 namespace {
 
-constexpr std::size_t kAhead = 32;  // octants that are looked up together
+constexpr std::size_t kAhead = 12;    // octants between two steps
+constexpr std::size_t kInFlight = 64;  // more than in all steps together
 
 /// Notes what the scan has hit of an octant.
 void mark(const TracedOctant& at, const HitOctant& hit, ScanTrace& trace) {
@@ -69,39 +70,43 @@ void traceScan(RegionMap& map, const ScanOctants& octants, const OcTreeKey& sens
   trace.octants.clear();
   ColumnGrid grid(map, sensor, config.reach, config.resolution);
   const std::vector<HitOctant>& hits = octants.list();
-  std::array<TracedOctant, kAhead> places;
-  std::array<std::uint64_t, kAhead> names;  // of their regions
-  for (std::size_t first = 0; first < hits.size(); first += kAhead) {
-    // The map is larger than the caches: ask for all that a few octants need before it is read.
-    const std::size_t n = std::min(kAhead, hits.size() - first);
-    for (std::size_t i = 0; i < n; ++i) {
-      TracedOctant& at = places[i];
-      at.corner = hits[first + i].corner();
-      at.number = static_cast<std::uint16_t>(map.octantOf(at.corner));
-      names[i] = map.nameOf(at.corner);
-      map.prefetch(names[i]);
-    }
-    for (std::size_t i = 0; i < n; ++i) {
-      TracedOctant& at = places[i];
-      at.region = i > 0 && names[i] == names[i - 1] ? places[i - 1].region : map.find(names[i]);
-      if (at.region == nullptr) at.region = &map.getOrCreate(at.corner);
-      Region::prefetch(at.region);
-    }
-    for (std::size_t i = 0; i < n; ++i) {
-      TracedOctant& at = places[i];
-      at.octant = &map.getOrCreate(*at.region, at.number);
-      __builtin_prefetch(at.octant);
-      __builtin_prefetch(at.region->column);
-      __builtin_prefetch(&historyOf(*at.octant).hits);
-    }
-    for (std::size_t i = 0; i < n; ++i) {
-      const TracedOctant& at = places[i];
-      const HitOctant& hit = hits[first + i];
-      mark(at, hit, trace);
-      if (config.insert) insert(at, config.firm);
-      if (hit.points > 0)
-        if (std::int32_t* index = grid.at(at.region->x, at.region->y)) addToColumn(at, hit, *index, trace);
-    }
+  // The map is larger than the caches. What an octant needs is asked for step by step, each some octants after the one
+  // before has asked for what it reads: the entry in the hash table, the region, the octant.
+  std::array<TracedOctant, kInFlight> places;
+  std::array<std::uint64_t, kInFlight> names;  // of their regions
+  const auto name = [&](std::size_t i) {
+    TracedOctant& at = places[i % kInFlight];
+    at.corner = hits[i].corner();
+    at.number = static_cast<std::uint16_t>(map.octantOf(at.corner));
+    names[i % kInFlight] = map.nameOf(at.corner);
+    map.prefetch(names[i % kInFlight]);
+  };
+  const auto findRegion = [&](std::size_t i) {
+    TracedOctant& at = places[i % kInFlight];
+    const std::uint64_t region = names[i % kInFlight];
+    const bool as_before = i > 0 && region == names[(i - 1) % kInFlight];
+    at.region = as_before ? places[(i - 1) % kInFlight].region : map.find(region);
+    if (at.region == nullptr) at.region = &map.getOrCreate(at.corner);
+    Region::prefetch(at.region);
+  };
+  const auto findOctant = [&](std::size_t i) {
+    TracedOctant& at = places[i % kInFlight];
+    at.octant = &map.getOrCreate(*at.region, at.number);
+    __builtin_prefetch(at.octant);
+    __builtin_prefetch(at.region->column);
+    __builtin_prefetch(&historyOf(*at.octant).hits);
+  };
+  for (std::size_t i = 0; i < hits.size() + 3 * kAhead; ++i) {
+    if (i < hits.size()) name(i);
+    if (i >= kAhead && i - kAhead < hits.size()) findRegion(i - kAhead);
+    if (i >= 2 * kAhead && i - 2 * kAhead < hits.size()) findOctant(i - 2 * kAhead);
+    if (i < 3 * kAhead) continue;
+    const HitOctant& hit = hits[i - 3 * kAhead];
+    const TracedOctant& at = places[(i - 3 * kAhead) % kInFlight];
+    mark(at, hit, trace);
+    if (config.insert) insert(at, config.firm);
+    if (hit.points > 0)
+      if (std::int32_t* index = grid.at(at.region->x, at.region->y)) addToColumn(at, hit, *index, trace);
   }
 }
 
