@@ -166,6 +166,7 @@ class RegionMap {
   }
   Region* find(std::uint64_t name) const { return regions_.find(name); }
   [[gnu::always_inline]] void prefetch(std::uint64_t name) const { regions_.prefetch(name); }
+  [[gnu::always_inline]] void prefetch(int x, int y) const { columns_.prefetch(nameOf(x, y)); }
 
   /// The region that holds a cube, if it is known.
   Region* regionOf(const OcTreeKey& cube) const { return find(nameOf(cube)); }

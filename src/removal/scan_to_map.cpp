@@ -35,9 +35,11 @@ class ScanToMapRemoval {
         result_(result) {}
 
   void run() {
+    const std::vector<Column*> columns = columnsOf(scan_.columns);
     std::vector<const Column*> candidates;
-    for (const Context2d& context : scan_.columns) {
-      Column* column = map_.find(context.x, context.y);
+    for (std::size_t i = 0; i < columns.size(); ++i) {
+      const Context2d& context = scan_.columns[i];
+      Column* column = columns[i];
       if (column == nullptr || !isCandidate(context, *column)) continue;
       candidates.push_back(column);
       // What is lower than all that the scan sees here it does not see.
@@ -51,6 +53,17 @@ class ScanToMapRemoval {
   }
 
  private:
+  /// Null where there is none. Their memory has been asked for.
+  std::vector<Column*> columnsOf(const std::vector<Context2d>& contexts) const {
+    std::vector<Column*> columns(contexts.size());
+    for (std::size_t i = 0; i < contexts.size(); ++i) {
+      if (i + kAhead < contexts.size()) map_.prefetch(contexts[i + kAhead].x, contexts[i + kAhead].y);
+      columns[i] = map_.find(contexts[i].x, contexts[i].y);
+      __builtin_prefetch(columns[i]);
+    }
+    return columns;
+  }
+
   /// ratio_1 < delta_1. Eq. (8)
   bool isCandidate(const Context2d& context, Column& column) const {
     const ContextConfig& limits = config_.context;
@@ -155,7 +168,10 @@ class ScanToMapRemoval {
     }
     std::size_t kept = 0;
     for (std::size_t d = 0; d < doubts_.size(); ++d) {
-      if (d + kAhead < doubts_.size()) __builtin_prefetch(&historyOf(*doubts_[d + kAhead].octant).filled);
+      if (d + kAhead < doubts_.size()) {
+        __builtin_prefetch(doubts_[d + kAhead].octant);
+        __builtin_prefetch(&historyOf(*doubts_[d + kAhead].octant).filled);
+      }
       Doubt doubt = doubts_[d];
       const std::uint64_t filled = looks[d].filled, through = looks[d].seen_through;
       if ((filled | through) == 0) continue;
@@ -181,6 +197,10 @@ class ScanToMapRemoval {
     std::vector<std::uint64_t> gone(doubts_.size(), 0);
     const EvidenceConfig& evidence = config_.evidence;
     for (std::size_t d = 0; d < doubts_.size(); ++d) {
+      if (d + kAhead < doubts_.size()) {
+        __builtin_prefetch(&historyOf(*doubts_[d + kAhead].octant).hits);
+        __builtin_prefetch(&historyOf(*doubts_[d + kAhead].octant).misses);
+      }
       const Doubt& doubt = doubts_[d];
       const OctantHistory& history = historyOf(*doubt.octant);
       std::uint64_t seen = 0, due = 0, sure = 0;
