@@ -12,6 +12,7 @@
 #include "octant.hpp"
 #include "octant_pool.hpp"
 #include "rhmap/core/block_index.hpp"
+#include "rhmap/core/prefetch.hpp"
 #include "rhmap/core/record_pool.hpp"
 
 namespace rhmap {
@@ -116,7 +117,7 @@ template <class ColumnAt, class AskFor, class F>
 void visitColumns(std::size_t n, ColumnAt&& columnAt, AskFor&& askFor, F&& visit) {
   constexpr std::size_t kAhead = 4;
   for (std::size_t i = 0; i < n; ++i) {
-    if (i + 4 * kAhead < n) __builtin_prefetch(columnAt(i + 4 * kAhead));
+    if (i + 4 * kAhead < n) prefetchWhole(static_cast<const Column*>(columnAt(i + 4 * kAhead)));
     if (i + 3 * kAhead < n) __builtin_prefetch(columnAt(i + 3 * kAhead)->regions.data());
     if (i + 2 * kAhead < n)
       for (const Region* region : columnAt(i + 2 * kAhead)->regions) Region::prefetch(region);
