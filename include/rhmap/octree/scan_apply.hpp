@@ -44,7 +44,7 @@ class ScanApplier {
   }
 
  private:
-  static constexpr std::size_t kAhead = 8;   // regions that are looked up while more are asked for
+  static constexpr std::size_t kAhead = 24;  // regions that are looked up while more are asked for
   static constexpr std::size_t kPart = 256;  // regions that a thread takes at a time
 
   struct Region {
