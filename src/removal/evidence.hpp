@@ -6,6 +6,7 @@
 #include <bit>
 #include <cmath>
 #include <cstdint>
+#include <span>
 
 #include "region_map.hpp"
 
@@ -67,8 +68,16 @@ void forEachOctantAround(const RegionMap& map, const OcTreeKey& corner, F&& visi
   };
   for (int x = first[0]; x <= last[0]; ++x)
     for (int y = first[1]; y <= last[1]; ++y)
-      for (int z = first[2]; z <= last[2]; ++z) regionAt(x, y, z) = map.find(x, y, z);
+      for (int z = first[2]; z <= last[2]; ++z) Region::prefetch(regionAt(x, y, z) = map.find(x, y, z));
 
+  // All are asked for before the first is looked at.
+  struct Known {
+    Region* region;
+    std::size_t o;
+    int dx, dy, dz;
+  };
+  std::array<Known, 27> known;
+  std::size_t n = 0;
   for (int dx = -1; dx <= 1; ++dx) {
     for (int dy = -1; dy <= 1; ++dy) {
       for (int dz = -1; dz <= 1; ++dz) {
@@ -76,10 +85,14 @@ void forEachOctantAround(const RegionMap& map, const OcTreeKey& corner, F&& visi
         Region* region = regionAt(x >> map.bits(), y >> map.bits(), z >> map.bits());
         if (region == nullptr) continue;
         const OcTreeKey at(static_cast<key_type>(x), static_cast<key_type>(y), static_cast<key_type>(z));
-        if (const std::size_t o = map.octantOf(at); region->knows(o)) visit(*region, o, dx, dy, dz);
+        const std::size_t o = map.octantOf(at);
+        if (!region->knows(o)) continue;
+        __builtin_prefetch(&region->octant(o));
+        known[n++] = {region, o, dx, dy, dz};
       }
     }
   }
+  for (const auto& [of, o, dx, dy, dz] : std::span(known).first(n)) visit(*of, o, dx, dy, dz);
 }
 
 /// Sums up an octant (its lowest cube) and so many cubes (1 to 4) around it. `movingIn(region, o)` gives the cubes

@@ -200,6 +200,8 @@ bool GroundEstimation::isRaised(const RegionMap& map, const Column& column, cons
   const double width = map.size() * resolution_;                                                   // [m]
   const auto apart = static_cast<int>(std::max(1L, std::lround(config_.around / kEach / width)));  // columns
   const float z = heightOf(plane, size) + static_cast<float>(column.base_z) * size;
+  for (int i = -kEach; i <= kEach; ++i)
+    for (int j = -kEach; j <= kEach; ++j) map.prefetch(column.x + i * apart, column.y + j * apart);
   int below = 0, level = 0, above = 0;
   for (int i = -kEach; i <= kEach; ++i) {
     for (int j = -kEach; j <= kEach; ++j) {
