@@ -59,10 +59,14 @@ void FreeSpace::forEachTile(F&& visit, const Grids&... grids) {
   std::size_t number = 0;
   for (int ty = 0; ty < ends_.side(); ty += 8) {
     for (int tx = 0; tx < ends_.side(); tx += 8, ++number) {
-      std::uint64_t any = 0;
-      for (int i = 0; i < 64; ++i) any |= (grids.word(tx + i % 8, ty + i / 8) | ...);
-      if (any == 0) continue;
       Tile*& tile = window_[number];
+      std::uint64_t any = 0;
+      for (int i = 0; i < 64; ++i) {
+        const std::uint64_t cells = (grids.word(tx + i % 8, ty + i / 8) | ...);
+        any |= cells;
+        if (tile != nullptr) __builtin_prefetch(&tile->columns[static_cast<std::size_t>(cells != 0 ? i : 0)]);
+      }
+      if (any == 0) continue;
       if (tile == nullptr) {
         const int x = (ends_.x0() + tx) >> 3, y = (ends_.y0() + ty) >> 3;
         tile = new Tile{.x = x, .y = y, .z0 = ends_.z0()};
