@@ -13,7 +13,9 @@ namespace {
 
 /// The lowest cube of an octant, from that of its region.
 std::array<int, 3> cornerInRegion(std::size_t octant) {
-  const auto along = [octant](int axis) { return static_cast<int>(gather3(static_cast<unsigned>(octant >> axis)) << 2); };
+  const auto along = [octant](int axis) {
+    return static_cast<int>(gather3(static_cast<unsigned>(octant >> axis)) << 2);
+  };
   return {along(0), along(1), along(2)};
 }
 
@@ -33,7 +35,8 @@ class CubeLists {
     std::size_t product = 4;
     for (std::size_t a = 1; a < 4; ++a) {
       for (std::size_t b = a; b < 4; ++b, ++product)
-        for (std::size_t i = 0; i < n_; ++i) lists_[product][i] = static_cast<std::int16_t>(lists_[a][i] * lists_[b][i]);
+        for (std::size_t i = 0; i < n_; ++i)
+          lists_[product][i] = static_cast<std::int16_t>(lists_[a][i] * lists_[b][i]);
     }
   }
 
@@ -109,9 +112,10 @@ std::optional<Plane> fitGround(std::span<const LocalCube> cubes, const GroundCon
 GroundEstimation::GroundEstimation(const GroundConfig& config, double resolution)
     : config_(config),
       resolution_(resolution),
-      band_{.r_gro = static_cast<float>(config.r_gro / resolution),
-            .depth = config.depth > 0 ? static_cast<float>(config.depth / resolution) : std::numeric_limits<float>::max(),
-            .thin = static_cast<float>((config.thin < 0 ? config.r_gro : config.thin) / resolution)} {}
+      band_{
+          .r_gro = static_cast<float>(config.r_gro / resolution),
+          .depth = config.depth > 0 ? static_cast<float>(config.depth / resolution) : std::numeric_limits<float>::max(),
+          .thin = static_cast<float>((config.thin < 0 ? config.r_gro : config.thin) / resolution)} {}
 
 void GroundEstimation::update(const RegionMap& map, const ScanTrace& trace) const {
   if (!config_.enabled) return;

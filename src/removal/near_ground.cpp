@@ -43,8 +43,8 @@ GroundCubes NearGround(const NearPlane* planes, std::size_t n, const std::array<
     for (const NearPlane* near = planes; near != planes + n; ++near) {
       const Plane& plane = *near->plane;
       const auto part = [&](unsigned axis, float from) HWY_ATTR {
-        const auto place = hn::Add(hn::LoadU(f, kPlacesAlong[axis].data() + i),
-                                   hn::Set(f, from + static_cast<float>(corner[axis])));
+        const auto place =
+            hn::Add(hn::LoadU(f, kPlacesAlong[axis].data() + i), hn::Set(f, from + static_cast<float>(corner[axis])));
         return hn::Mul(hn::Set(f, plane.n[axis]), place);
       };
       const auto sum = hn::Add(hn::Add(part(0, near->dx), part(1, near->dy)), part(2, near->dz));

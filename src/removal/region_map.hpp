@@ -111,8 +111,8 @@ struct alignas(64) Column {
     __builtin_prefetch(&region.octant(static_cast<std::size_t>(std::countr_zero(octants))));
 }
 
-/// Visits the columns columnAt(0) ... columnAt(n - 1). They lie all over the memory: asks for them, their lists and their
-/// regions some time before they are needed, and then askFor(column) for what else is.
+/// Visits the columns columnAt(0) ... columnAt(n - 1). They lie all over the memory: asks for them, their lists and
+/// their regions some time before they are needed, and then askFor(column) for what else is.
 template <class ColumnAt, class AskFor, class F>
 void visitColumns(std::size_t n, ColumnAt&& columnAt, AskFor&& askFor, F&& visit) {
   constexpr std::size_t kAhead = 4;

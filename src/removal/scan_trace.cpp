@@ -8,7 +8,7 @@
 namespace rhmap {
 namespace {
 
-constexpr std::size_t kAhead = 12;    // octants between two steps
+constexpr std::size_t kAhead = 12;     // octants between two steps
 constexpr std::size_t kInFlight = 64;  // more than in all steps together
 
 /// Notes what the scan has hit of an octant.

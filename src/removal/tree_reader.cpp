@@ -55,8 +55,8 @@ struct Reading {
     for (int z = corner[2]; z < corner[2] + edge; z += 4)
       for (int cy = std::max<int>(corner[1], y); cy < std::min(corner[1] + edge, y + size); cy += 4)
         for (int cx = std::max<int>(corner[0], x); cx < std::min(corner[0] + edge, x + size); cx += 4)
-          cubes.push_back({{static_cast<key_type>(cx), static_cast<key_type>(cy), static_cast<key_type>(z)},
-                           ~std::uint64_t{0}});
+          cubes.push_back(
+              {{static_cast<key_type>(cx), static_cast<key_type>(cy), static_cast<key_type>(z)}, ~std::uint64_t{0}});
   }
 };
 

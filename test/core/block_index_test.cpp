@@ -19,6 +19,7 @@ TEST(BlockIndex, AgreesWithUnorderedMapOverRandomInsertionsAndDeletions) {
     const std::uint64_t key = random() % 2000 * 0x100000001U;
     if (const auto it = oracle.find(key); it != oracle.end()) {
       ASSERT_EQ(index.find(key), it->second);
+      ASSERT_EQ(index.findOrInsert(key, [] { return static_cast<int*>(nullptr); }), it->second);
       if (random() % 2 == 0) {
         index.erase(key);
         oracle.erase(it);
@@ -26,7 +27,11 @@ TEST(BlockIndex, AgreesWithUnorderedMapOverRandomInsertionsAndDeletions) {
     } else {
       ASSERT_EQ(index.find(key), nullptr);
       int* value = &values[random() % values.size()];
-      index.insert(key, value);
+      if (random() % 2 == 0) {
+        index.insert(key, value);
+      } else {
+        ASSERT_EQ(index.findOrInsert(key, [&] { return value; }), value);
+      }
       oracle[key] = value;
     }
     ASSERT_EQ(index.size(), oracle.size());

@@ -3,10 +3,12 @@
 
 #include <gtest/gtest.h>
 
+#include <bit>
 #include <random>
 #include <set>
 
 #include "rhmap/core/cell_word.hpp"
+#include "rhmap/core/popcount.hpp"
 #include "rhmap/core/region_lookahead.hpp"
 
 namespace rhmap {
@@ -31,6 +33,26 @@ TEST(Block, CellsAreInTheOrderOfOctomapsChildNumbers) {
     }
     ASSERT_EQ(static_cast<unsigned>(cellIndex(key, 0)), pathTo(key, 0, 1));
   }
+}
+
+TEST(Popcount, IsTheStandardLibrarys) {
+  std::mt19937_64 random(2);
+  for (const std::uint64_t bits : {std::uint64_t{0}, ~std::uint64_t{0}, std::uint64_t{1} << 63})
+    EXPECT_EQ(popcount(bits), std::popcount(bits));
+  for (int i = 0; i < 10000; ++i) {
+    const std::uint64_t bits = i % 2 == 0 ? random() : random() & random() & random();
+    ASSERT_EQ(popcount(bits), std::popcount(bits)) << bits;
+  }
+}
+
+TEST(Block, NodesAreAddedToTheMasksOfEightOctets) {
+  Block block{};
+  block.mask[8] = 0b1001;
+  addToMasks(block, 8, 0x80'00'00'00'00'00'10'06);
+  EXPECT_EQ(block.mask[8], 0b1111);
+  EXPECT_EQ(block.mask[9], 0x10);
+  EXPECT_EQ(block.mask[15], 0x80);
+  EXPECT_EQ(block.mask[7] | block.mask[10] | block.mask[16], 0);
 }
 
 TEST(Block, ParentAndChildOctetsAreInverse) {

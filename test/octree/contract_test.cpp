@@ -2,8 +2,11 @@
 // OctoMap's corner cases, one text for both trees: what holds here for stock OctoMap holds for rhmap.
 #include <gtest/gtest.h>
 
+#include <bit>
 #include <cmath>
 #include <limits>
+#include <random>
+#include <set>
 #include <sstream>
 #include <vector>
 
@@ -331,6 +334,33 @@ TEST(Difference, ABoxWithACornerOutsideOfTheTreeHoldsNothing) {
   OcTree map(0.1);
   map.updateNode(1.0, 1.0, 1.0, true);
   EXPECT_TRUE(map.begin_leafs_bbx(point3d(-1e6F, 0, 0), point3d(2, 2, 2)) == map.end_leafs_bbx());
+}
+
+TEST(InnerValues, OfAnyChildrenAreOctomaps) {
+  constexpr float kInfinity = std::numeric_limits<float>::infinity(), kLeast = std::numeric_limits<float>::lowest();
+  const std::vector<float> odd{0.0F, -0.0F, NAN, -NAN, kInfinity, -kInfinity, kLeast, 1.5F, -1.5F};
+  std::mt19937 random(12);
+  std::set<std::uint32_t> results;
+  for (int round = 0; round < 3000; ++round) {
+    OcTree ours(0.1);
+    test::OctomapOracle theirs(0.1);
+    const auto which = static_cast<unsigned>(random() % 255 + 1);
+    for (unsigned i = 0; i < 8; ++i) {
+      if ((which >> i & 1) == 0) continue;
+      const OcTreeKey key(static_cast<key_type>(32770 + (i & 1)), static_cast<key_type>(32772 + (i >> 1 & 1)),
+                          static_cast<key_type>(32774 + (i >> 2)));
+      const float value = odd[random() % (round % 2 == 0 ? odd.size() : 4)];
+      ours.updateNode(key, true, true)->setLogOdds(value);
+      theirs.updateNode(key, true, true)->setLogOdds(value);
+    }
+    ours.updateInnerOccupancy();
+    theirs.updateInnerOccupancy();
+    const OcTreeKey key(32770, 32772, 32774);
+    const auto bits = [&](auto& tree) { return std::bit_cast<std::uint32_t>(tree.search(key, 15)->getLogOdds()); };
+    ASSERT_EQ(bits(ours), bits(theirs)) << which << ", round " << round;
+    results.insert(bits(ours));
+  }
+  EXPECT_GE(results.size(), 6U);
 }
 
 TEST(Difference, MemoryUsageIsWhatTheMapHolds) {

@@ -186,10 +186,10 @@ TEST_P(RegionSizes, AColumnIsReadFromTheTree) {
     for (key_type y = 0; y < 16; ++y)
       for (key_type z = 0; z < 28; ++z)
         if (z < 16 || (z < 24 ? x < 8 || y < 8 : x < 4 && y < 4))
-        tree.setNodeValue(OcTreeKey(static_cast<key_type>(kTreeMaxVal + x), static_cast<key_type>(kTreeMaxVal + y),
-                                    static_cast<key_type>(kTreeMaxVal + 64 + z)),
-                          2.0F);
-  RegionMap map(GetParam(), [&](key_type x, key_type y, int size) { 
+          tree.setNodeValue(OcTreeKey(static_cast<key_type>(kTreeMaxVal + x), static_cast<key_type>(kTreeMaxVal + y),
+                                      static_cast<key_type>(kTreeMaxVal + 64 + z)),
+                            2.0F);
+  RegionMap map(GetParam(), [&](key_type x, key_type y, int size) {
     return readColumn(*tree.store_, tree.getOccupancyThresLog(), x, y, size);
   });
   std::size_t occupied = 0;

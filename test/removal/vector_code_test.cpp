@@ -8,6 +8,7 @@
 #include <random>
 
 #include "cell_counters.hpp"
+#include "near_ground.hpp"
 #include "pixels.hpp"
 #include "range_image.hpp"
 #include "scan_points.hpp"
@@ -140,6 +141,40 @@ TEST_P(VectorCode, ATallyCountsEachOfItsCubes) {
     ASSERT_EQ(tally, expected) << i;
   }
   EXPECT_EQ(*std::max_element(tally.begin(), tally.end()), 255);
+}
+
+TEST_P(VectorCode, CubesOfTheGroundAreNearOneOfItsPlanes) {
+  std::mt19937 random(9);
+  std::uniform_real_distribution<float> slant(-0.4F, 0.4F), height(-3, 12);
+  const GroundBand band{.r_gro = 2.5F, .depth = 4, .thin = 0.7F};
+  int ground = 0, safe = 0;
+  for (int round = 0; round < 200; ++round) {
+    std::array<Plane, 5> planes;
+    std::array<NearPlane, 5> near;
+    const auto n = static_cast<std::size_t>(round % 6);  // none, too
+    for (std::size_t i = 0; i < n; ++i) {
+      planes[i] = {.n = {slant(random), slant(random), 0.9F}, .d = height(random)};
+      near[i] = {&planes[i], i == 1 ? 8.0F : 0.0F, i == 2 ? -8.0F : 0.0F, i == 3 ? 8.0F : 0.0F};
+    }
+    const std::array<int, 3> corner{4 * (round % 2), 4 * (round / 2 % 2), 4 * (round / 4 % 2)};
+    const GroundCubes cubes = nearGround({near.data(), n}, corner, band);
+    for (int bit = 0; bit < 64; ++bit) {
+      const auto& place = kPlaceInOctant[static_cast<std::size_t>(bit)];
+      float lowest = band.r_gro;
+      for (std::size_t i = 0; i < n; ++i) {
+        const float above = planes[i].above(static_cast<float>(corner[0] + place[0]) + near[i].dx,
+                                            static_cast<float>(corner[1] + place[1]) + near[i].dy,
+                                            static_cast<float>(corner[2] + place[2]) + near[i].dz);
+        if (above >= -band.depth) lowest = std::min(lowest, above);
+      }
+      ASSERT_EQ(cubes.ground >> bit & 1, lowest < band.r_gro) << round << ' ' << bit;
+      ASSERT_EQ(cubes.safe >> bit & 1, lowest <= band.thin) << round << ' ' << bit;
+      ground += lowest < band.r_gro, safe += lowest <= band.thin;
+    }
+  }
+  EXPECT_GT(safe, 1000);
+  EXPECT_GT(ground, safe + 1000);
+  EXPECT_LT(ground, 200 * 64 - 1000);
 }
 
 TEST(Counters, CountAsSixtyFourCounters) {
