@@ -68,7 +68,8 @@ void forEachOctantAround(const RegionMap& map, const OcTreeKey& corner, F&& visi
   };
   for (int x = first[0]; x <= last[0]; ++x)
     for (int y = first[1]; y <= last[1]; ++y)
-      for (int z = first[2]; z <= last[2]; ++z) Region::prefetch(regionAt(x, y, z) = map.find(x, y, z));
+      for (int z = first[2]; z <= last[2]; ++z)
+        if (Region* region = regionAt(x, y, z) = map.find(x, y, z); region != nullptr) Region::prefetch(region);
 
   // All are asked for before the first is looked at.
   struct Known {

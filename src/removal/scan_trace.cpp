@@ -10,6 +10,7 @@ namespace {
 
 constexpr std::size_t kAhead = 12;     // octants between two steps
 constexpr std::size_t kInFlight = 64;  // more than in all steps together
+static_assert(kInFlight > 3 * kAhead);
 
 /// Notes what the scan has hit of an octant.
 void mark(const TracedOctant& at, const HitOctant& hit, ScanTrace& trace) {

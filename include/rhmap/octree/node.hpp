@@ -98,15 +98,17 @@ class OcTreeNode : public OcTreeDataNode<float> {
   template <class NODE>
   static float maxLogOdds(const Octet<NODE>& octet) {
     if (octet.mask == 0) return -FLT_MAX;  // there is not even memory
-    // Which of them exist is hard to guess: those that do not are taken for the least, without branches. The order of
-    // the comparison, and of what is compared with what, settles ties and NaN as OctoMap's loop does.
+    // Which of them exist is hard to guess: those that do not, whose memory may hold anything, are taken for the least,
+    // without branches. The order of the comparison, and of what is compared with what, settles ties and NaN as
+    // OctoMap's loop does.
     const auto larger = [](float first, float second) { return second > first ? second : first; };
+    const auto valueOf = [&](unsigned i) { return static_cast<const OcTreeNode&>(octet.nodes[i]).value; };
     const auto valueIf = [&](bool counts, unsigned i) {
       const std::uint32_t all = 0U - std::uint32_t{counts}, least = std::bit_cast<std::uint32_t>(-FLT_MAX);
-      return std::bit_cast<float>((std::bit_cast<std::uint32_t>(octet.nodes[i].getLogOdds()) & all) | (least & ~all));
+      return std::bit_cast<float>((std::bit_cast<std::uint32_t>(valueOf(i)) & all) | (least & ~all));
     };
     const auto largest = [&](unsigned first) {
-      float max = valueIf(octet.has(first) & (octet.nodes[first].getLogOdds() > -FLT_MAX), first);
+      float max = valueIf(octet.has(first) & (valueOf(first) > -FLT_MAX), first);
       for (unsigned i = first + 1; i < first + 4; ++i) max = larger(max, valueIf(octet.has(i), i));
       return max;
     };
