@@ -7,7 +7,6 @@
 #include <cfloat>
 #include <cmath>
 #include <cstddef>
-#include <cstdint>
 #include <cstring>
 #include <istream>
 #include <ostream>
@@ -97,22 +96,16 @@ class OcTreeNode : public OcTreeDataNode<float> {
   /// Largest value of the children, -FLT_MAX if there is none; of equal values (0 and -0) the first, NaN never.
   template <class NODE>
   static float maxLogOdds(const Octet<NODE>& octet) {
-    if (octet.mask == 0) return -FLT_MAX;  // there is not even memory
-    // Which of them exist is hard to guess: those that do not, whose memory may hold anything, are taken for the least,
-    // without branches. The order of the comparison, and of what is compared with what, settles ties and NaN as
-    // OctoMap's loop does.
+    // The order of the comparison, and of what is compared with what, settles ties and NaN as OctoMap's loop does.
     const auto larger = [](float first, float second) { return second > first ? second : first; };
-    const auto valueOf = [&](unsigned i) { return static_cast<const OcTreeNode&>(octet.nodes[i]).value; };
-    const auto valueIf = [&](bool counts, unsigned i) {
-      const std::uint32_t all = 0U - std::uint32_t{counts}, least = std::bit_cast<std::uint32_t>(-FLT_MAX);
-      return std::bit_cast<float>((std::bit_cast<std::uint32_t>(valueOf(i)) & all) | (least & ~all));
-    };
-    const auto largest = [&](unsigned first) {
-      float max = valueIf(octet.has(first) & (valueOf(first) > -FLT_MAX), first);
-      for (unsigned i = first + 1; i < first + 4; ++i) max = larger(max, valueIf(octet.has(i), i));
-      return max;
-    };
-    return larger(largest(0), largest(4));
+    const auto value = [&](unsigned i) { return larger(-FLT_MAX, octet.nodes[i].getLogOdds()); };
+    if (octet.mask == 0xff)
+      return larger(larger(larger(value(0), value(1)), larger(value(2), value(3))),
+                    larger(larger(value(4), value(5)), larger(value(6), value(7))));
+    float max = -FLT_MAX;
+    for (unsigned rest = octet.mask; rest != 0; rest &= rest - 1)
+      max = larger(max, value(static_cast<unsigned>(std::countr_zero(rest))));
+    return max;
   }
 };
 static_assert(sizeof(OcTreeNode) == sizeof(float));
