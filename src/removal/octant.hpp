@@ -77,11 +77,7 @@ inline OcTreeKey cubeOf(const OcTreeKey& corner, int bit) {
   return {static_cast<key_type>(corner[0] + place[0]), static_cast<key_type>(corner[1] + place[1]),
           static_cast<key_type>(corner[2] + place[2])};
 }
-/// The cubes of an octant with this z in it (0 ... 3).
-inline constexpr std::uint64_t layerOf(int z) {
-  return std::uint64_t{0x0f0f0f0f} << (4 * (z & 1)) << (32 * (z >> 1 & 1));
-}
-/// The lowest and the highest z of cubes of an octant of which there is one at least. Which they are is hard to guess:
+/// The lowest and the highest z (0 ... 3) of cubes of an octant of which there is one at least. Which they are is hard to guess:
 /// the layers' bits are drawn together, instead of looked at one by one.
 inline std::pair<int, int> layersOf(std::uint64_t cubes) {
   cubes |= cubes >> 16;

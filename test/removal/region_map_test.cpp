@@ -3,11 +3,13 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <array>
 #include <bit>
 #include <cstdint>
 #include <cstdlib>
 #include <map>
+#include <random>
 #include <set>
 #include <tuple>
 #include <utility>
@@ -226,9 +228,19 @@ TEST(RegionMap, ForgetsWhatIsFarAndReadsItAgain) {
   EXPECT_EQ(reads, 3);
 }
 
-TEST(Octant, LayersAreTheCubesOfOneHeight) {
-  for (int bit = 0; bit < 64; ++bit)
-    for (int z = 0; z < 4; ++z) EXPECT_EQ((layerOf(z) & maskOf(bit)) != 0, cubeOf({0, 0, 0}, bit)[2] == z);
+TEST(Octant, LayersAreThoseOfTheLowestAndTheHighestCube) {
+  std::mt19937_64 random(5);
+  for (int i = 0; i < 10000; ++i) {
+    std::uint64_t cubes = random() & random();
+    if (i % 2 == 0) cubes &= random() & random() & random();
+    if (cubes == 0) continue;
+    int low = 4, high = -1;
+    forEachBit(cubes, [&](int bit) {
+      const int z = cubeOf({0, 0, 0}, bit)[2];
+      low = std::min(low, z), high = std::max(high, z);
+    });
+    ASSERT_EQ(layersOf(cubes), std::pair(low, high)) << cubes;
+  }
 }
 
 }  // namespace
