@@ -35,7 +35,7 @@ inline int cubesAround(double distance, double resolution) {
 constexpr std::uint64_t nearSide(unsigned axis, int reach, bool larger) {
   std::uint64_t cubes = 0;
   for (unsigned bit = 0; bit < 64; ++bit) {
-    const int along = static_cast<int>((bit >> axis & 1) | (bit >> (axis + 2) & 2));
+    const int along = kPlaceInOctant[bit][axis];
     if (larger ? along >= 4 - reach : along < reach) cubes |= std::uint64_t{1} << bit;
   }
   return cubes;

@@ -63,7 +63,7 @@ void FreeSpace::forEachTile(F&& visit, const Grids&... grids) {
       std::uint64_t any = 0;
       for (int i = 0; i < 64; ++i) {
         const std::uint64_t cells = (grids.word(tx + i % 8, ty + i / 8) | ...);
-        any |= cells;
+        any |= cells;  // asked for without branches: where there are none, for what is there already
         if (tile != nullptr) __builtin_prefetch(&tile->columns[static_cast<std::size_t>(cells != 0 ? i : 0)]);
       }
       if (any == 0) continue;

@@ -11,14 +11,6 @@
 namespace rhmap {
 namespace {
 
-/// The lowest cube of an octant, from that of its region.
-std::array<int, 3> cornerInRegion(std::size_t octant) {
-  const auto along = [octant](int axis) {
-    return static_cast<int>(gather3(static_cast<unsigned>(octant >> axis)) << 2);
-  };
-  return {along(0), along(1), along(2)};
-}
-
 /// The cubes of a region, each coordinate and each product of two in a list of its own, so that choosing some of them
 /// and summing these up is vector code.
 class CubeLists {

@@ -77,6 +77,11 @@ inline OcTreeKey cubeOf(const OcTreeKey& corner, int bit) {
   return {static_cast<key_type>(corner[0] + place[0]), static_cast<key_type>(corner[1] + place[1]),
           static_cast<key_type>(corner[2] + place[2])};
 }
+/// The lowest cube of a region's octant `o`, from the region's.
+inline std::array<int, 3> cornerInRegion(std::size_t o) {
+  const auto along = [o](int axis) { return static_cast<int>(gather3(static_cast<unsigned>(o >> axis)) << 2); };
+  return {along(0), along(1), along(2)};
+}
 /// The lowest and the highest z (0 ... 3) of cubes of an octant of which there is one at least. Which they are is hard
 /// to guess: the layers' bits are drawn together, instead of looked at one by one.
 inline std::pair<int, int> layersOf(std::uint64_t cubes) {

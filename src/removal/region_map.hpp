@@ -117,11 +117,11 @@ template <class ColumnAt, class AskFor, class F>
 void visitColumns(std::size_t n, ColumnAt&& columnAt, AskFor&& askFor, F&& visit) {
   constexpr std::size_t kAhead = 4;
   for (std::size_t i = 0; i < n; ++i) {
-    if (i + 4 * kAhead < n) prefetchWhole(static_cast<const Column*>(columnAt(i + 4 * kAhead)));
+    if (i + 4 * kAhead < n) prefetchWhole(columnAt(i + 4 * kAhead));
     if (i + 3 * kAhead < n) __builtin_prefetch(columnAt(i + 3 * kAhead)->regions.data());
     if (i + 2 * kAhead < n)
       for (const Region* region : columnAt(i + 2 * kAhead)->regions) Region::prefetch(region);
-    if (i + kAhead < n) askFor(static_cast<const Column&>(*columnAt(i + kAhead)));
+    if (i + kAhead < n) askFor(*columnAt(i + kAhead));
     visit(*columnAt(i));
   }
 }
@@ -175,10 +175,9 @@ class RegionMap {
   std::size_t octantOf(const OcTreeKey& cube) const { return mortonOf(cube) >> 6 & (octants() - 1); }
   /// Lowest cube of octant `o` of a region.
   OcTreeKey cornerOf(const Region& region, std::size_t o) const {
-    const auto u = static_cast<unsigned>(o);
-    return {static_cast<key_type>((region.x << bits_) + (gather3(u) << 2)),
-            static_cast<key_type>((region.y << bits_) + (gather3(u >> 1) << 2)),
-            static_cast<key_type>((region.z << bits_) + (gather3(u >> 2) << 2))};
+    const auto [x, y, z] = cornerInRegion(o);
+    return {static_cast<key_type>((region.x << bits_) + x), static_cast<key_type>((region.y << bits_) + y),
+            static_cast<key_type>((region.z << bits_) + z)};
   }
 
   /// Lowest and highest cube of a region, as keys; max < min if it has none.

@@ -40,10 +40,7 @@ struct ScanTrace {
   void forEachRegion(F&& visit) const {
     for (std::size_t i = 0; i < regions.size(); ++i) {
       if (i + 2 * kAhead < regions.size()) Region::prefetch(regions[i + 2 * kAhead]);
-      if (i + kAhead < regions.size()) {
-        const Region& soon = *regions[i + kAhead];
-        forEachBit(soon.hit_octants, [&](int o) { __builtin_prefetch(&soon.octant(static_cast<std::size_t>(o))); });
-      }
+      if (i + kAhead < regions.size()) prefetchOctants(*regions[i + kAhead], regions[i + kAhead]->hit_octants);
       visit(*regions[i]);
     }
   }
