@@ -25,11 +25,12 @@ HWY_INLINE VU advance(F /*f*/, VF& tx, VF& ty, VF& tz, VF dx, VF dy, VF dz, VU c
   const hn::RebindToUnsigned<F> u;
   const auto x_before_y = hn::Lt(tx, ty);
   const auto z = hn::Le(tz, hn::Min(tx, ty));
-  const auto x = hn::AndNot(z, x_before_y);
-  const auto y = hn::AndNot(z, hn::Not(x_before_y));
-  tx = hn::IfThenElse(x, hn::Add(tx, dx), tx);
-  ty = hn::IfThenElse(y, hn::Add(ty, dy), ty);
-  tz = hn::IfThenElse(z, hn::Add(tz, dz), tz);
+  // All sums and the choice between x and y are there before it is known whether it is z: a ray waits for its last
+  // step.
+  const VF tx_next = hn::Add(tx, dx), ty_next = hn::Add(ty, dy), tz_next = hn::Add(tz, dz);
+  tx = hn::IfThenElse(z, tx, hn::IfThenElse(x_before_y, tx_next, tx));
+  ty = hn::IfThenElse(z, ty, hn::IfThenElse(x_before_y, ty, ty_next));
+  tz = hn::IfThenElse(z, tz_next, tz);
 
   const VU others =  // the bits of the axes that stay
       hn::IfThenElse(hn::RebindMask(u, z), hn::Set(u, ~cell_word::kAxis[2]),

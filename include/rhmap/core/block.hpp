@@ -92,10 +92,7 @@ constexpr std::uint64_t nonzeroBytes(std::uint64_t bytes) {
 inline int blockLevel(std::uint64_t block_key) { return static_cast<int>(block_key >> 48); }
 
 /// Smallest key in the block with this blockKey().
-inline OcTreeKey blockCorner(std::uint64_t block_key) {
-  const auto axis = [=](int first_bit) { return static_cast<key_type>(block_key >> first_bit); };
-  return {axis(0), axis(16), axis(32)};
-}
+inline OcTreeKey blockCorner(std::uint64_t block_key) { return keyOfWord(block_key); }
 
 /// A node's place. Empty (block null) where there is none.
 struct NodeRef {

@@ -23,12 +23,21 @@ inline std::uint64_t fromKey(const OcTreeKey& key) {
          static_cast<std::uint64_t>(key[1] >> 3) << 22 | static_cast<std::uint64_t>(key[2] >> 3) << 35;
 }
 
+/// The region's smallest key, as keyWord().
+inline std::uint64_t regionWord(std::uint64_t word) {
+  return (word & 0x1fff << 9) >> 6 | (word & std::uint64_t{0x1fff} << 22) >> 3 | (word & std::uint64_t{0x1fff} << 35);
+}
+
+/// blockKey() of the region.
+inline std::uint64_t regionKey(std::uint64_t word) {
+  return regionWord(word) | static_cast<std::uint64_t>(kRegionLevel) << 48;
+}
+
 inline OcTreeKey toKey(std::uint64_t word) {
-  const auto cell = static_cast<unsigned>(word & 511);
-  const auto axis = [word, cell](int i, int shift) {
-    return static_cast<key_type>((word >> shift & 0x1fff) << 3 | gather3(cell >> i));
-  };
-  return {axis(0, 9), axis(1, 22), axis(2, 35)};
+  std::uint64_t cell = word & 511;
+  cell = (cell | cell << 15 | cell << 30) & 0x0049'0049'0049;  // gather3 of the three axes at once
+  cell = (cell | cell >> 2 | cell >> 4) & 0x0007'0007'0007;
+  return keyOfWord(regionWord(word) | cell);
 }
 
 /// What to add along an axis for a step of +1, -1 or 0.

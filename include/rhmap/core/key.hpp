@@ -28,6 +28,7 @@ using octomap::point3d;
 inline constexpr unsigned kTreeDepth = 16;
 inline constexpr key_type kTreeMaxVal = 32768;  ///< key of the coordinate 0
 inline constexpr int kRegionLevel = 5;          ///< blocks of this level are the regions
+inline constexpr int kRegionBits = 3;           ///< a region is a cube of 2^3 cells an edge
 
 /// Bits of a key below one cell of a block of this level: a cell is 2^shift keys wide.
 constexpr int cellShift(int level) { return 3 * (kRegionLevel - level); }
@@ -45,8 +46,13 @@ inline std::uint64_t keyWord(const OcTreeKey& key) {
   return key[0] | static_cast<std::uint64_t>(key[1]) << 16 | static_cast<std::uint64_t>(key[2]) << 32;
 }
 
-/// Morton index (x lowest bit) of the cell that holds `key` within its block of this level: 0 ... 511. Inlined by force,
-/// like blockKey(): the level is a constant where it counts.
+/// Inverse of keyWord(); what is above the three parts is left aside.
+inline OcTreeKey keyOfWord(std::uint64_t word) {
+  return {static_cast<key_type>(word), static_cast<key_type>(word >> 16), static_cast<key_type>(word >> 32)};
+}
+
+/// Morton index (x lowest bit) of the cell that holds `key` within its block of this level: 0 ... 511. Inlined by
+/// force, like blockKey(): the level is a constant where it counts.
 [[gnu::always_inline]] inline int cellIndex(const OcTreeKey& key, int level) {
   const int shift = cellShift(level);
   const std::uint64_t three_bits = 0xffffU & 7U << shift;  // of an axis; at level 0 there is but one

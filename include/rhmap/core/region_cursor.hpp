@@ -33,16 +33,15 @@ class RegionCursor {
 
  private:
   void moveTo(std::uint64_t cell) {
-    const OcTreeKey key = cell_word::toKey(cell);
     last_ = cell;
     bits_ = 0;
-    region_ = store_.findRegion(key);
+    region_ = store_.findBlock(cell_word::regionKey(cell));
     if (region_ == nullptr) {
-      const Found found = store_.searchAbove(key, kRegionLevel);
+      const Found found = store_.searchAbove(cell_word::toKey(cell), kRegionLevel);
       whole_ = store_.nodeOrNull(found.node);
       bits_ = found.bits;
     }
-    outside_ = cell_word::outsideOfCube(std::max(bits_, 3));
+    outside_ = cell_word::outsideOfCube(std::max(bits_, kRegionBits));
   }
 
   const BlockStore<NODE>& store_;

@@ -3,7 +3,10 @@
 
 // Members of OccupancyOcTreeBase that are more than a line or two; included by occupancy_octree_base.hpp.
 
+#include <algorithm>
+#include <bit>
 #include <limits>
+#include <optional>
 
 #include "rhmap/core/region_cursor.hpp"
 #include "rhmap/octree/map_codec.hpp"
@@ -263,22 +266,49 @@ bool OccupancyOcTreeBase<NODE>::castRay(const point3d& origin, const point3d& di
   const std::optional<Ray> start = startCast(this->keys_, origin, key, unitVector(direction));
   if (!start) return false;
 
-  // A cell's centre is no farther from where the ray enters than a diagonal: up to here the range needs no test.
-  const double certainly_within = maxRange > 0.0 ? maxRange - (2 * this->getResolution() + 1e-5 * maxRange)
-                                                 : std::numeric_limits<double>::infinity();
+  // A cell's centre is no farther from where the ray enters than half a diagonal: up to here the range needs no test.
+  const double certainly_within =
+      maxRange > 0.0 ? maxRange - (this->getResolution() + 1e-5 * maxRange) : std::numeric_limits<double>::infinity();
   const auto isBeyond = [&](const point3d& centre) {
     double squared = 0.0;
     for (unsigned i = 0; i < 3; ++i) squared += double((centre(i) - origin(i)) * (centre(i) - origin(i)));
     return squared > maxRange * maxRange;
   };
-  for (RayCast ray(*start);;) {
-    followRay(ray, cursor.bits(), certainly_within);
-    for (const std::uint64_t cell : ray.passed())
-      if (const NODE* node = cursor.searchHere(cell); endsIn(node)) return stop(cell, node);
-    const std::uint64_t cell = ray.cell();
-    if (!ray.in_space) return stop(cell, nullptr);
-    if (ray.entry > certainly_within && isBeyond(this->keyToCoord(cell_word::toKey(cell)))) return stop(cell, nullptr);
+  // What OctoMap asks at each cell: is it too far, does the ray end in it?
+  const auto endsAt = [&](std::uint64_t cell, bool test_range) -> std::optional<bool> {
+    if (test_range && isBeyond(this->keyToCoord(cell_word::toKey(cell)))) return stop(cell, nullptr);
     if (const NODE* node = cursor.search(cell); endsIn(node)) return stop(cell, node);
+    return std::nullopt;
+  };
+  RaySteps steps;
+  for (RayCast ray(*start);;) {
+    const bool in_cube = cursor.bits() > kRegionBits && ray.entry <= certainly_within;
+    if (in_cube || ray.isNearBorder()) {
+      if (in_cube) {
+        leaveCube(ray, cursor.bits(), certainly_within);
+      } else {
+        step(ray);
+      }
+      if (!ray.in_space) return stop(ray.cell(), nullptr);
+      if (const auto hit = endsAt(ray.cell(), ray.entry > certainly_within)) return *hit;
+      continue;
+    }
+    takeSteps(ray, steps);
+    std::size_t at = 0;
+    if (steps.entry > certainly_within) {
+      for (; at < RaySteps::kSteps; ++at)
+        if (const auto hit = endsAt(steps.cells[at], true)) return *hit;
+    } else {
+      for (unsigned ends = steps.ends; ends != 0; ends &= ends - 1, ++at) {  // region by region
+        if (const auto hit = endsAt(steps.cells[at], false)) return *hit;
+        if (cursor.bits() > kRegionBits) break;
+        const auto end = static_cast<std::size_t>(std::countr_zero(ends));
+        if (cursor.bits() > 0) at = end;  // there is none, and its cells are all like this one
+        while (at < end)
+          if (const NODE* node = cursor.searchHere(steps.cells[++at]); endsIn(node)) return stop(steps.cells[at], node);
+      }
+    }
+    ray.follow(steps, std::min(at, RaySteps::kSteps - 1));
   }
 }
 
