@@ -147,8 +147,40 @@ HWY_INLINE void skipAhead(VQ (&t)[kParts], const VQ (&delta)[kParts], VQ (&left)
         t[p] = hn::IfThenElse(hn::Lt(hn::Set(q, first + i), whole[p]), hn::Add(t[p], delta[p]), t[p]);
 }
 
+/// When each axis takes its next steps.
+constexpr std::size_t kRows = 4;
+using Rows = VQ[kRows][kParts];
+
+/// The step that leaves a cube.
+struct Exit {
+  double distance;  ///< along the ray
+  int axis;         ///< of axes that tie it is the last: the ray is outside before the others' turn
+  bool is_in_rows;  ///< so are all steps before it
+};
+
+/// `left`: steps of each axis to the end of the cube.
+HWY_INLINE Exit findExit(const Rows& row, const VQ (&left)[kParts]) {
+  const Q q;
+  VQ leaves[kParts];
+  for (std::size_t p = 0; p < kParts; ++p) {
+    leaves[p] = hn::Inf(q);
+    for (std::size_t k = 0; k < kRows; ++k)
+      leaves[p] = hn::IfThenElse(hn::Eq(left[p], hn::Set(q, double(k + 1))), row[k][p], leaves[p]);
+  }
+  Exit exit{.distance = smallest(leaves), .axis = 0, .is_in_rows = true};
+  const VQ distance = hn::Set(q, exit.distance);
+  std::uint64_t axes = 0;
+  for (std::size_t p = 0; p < kParts; ++p) {
+    std::uint8_t lanes[8] = {};
+    hn::StoreMaskBits(q, hn::Eq(leaves[p], distance), lanes);
+    axes |= std::uint64_t{lanes[0]} << p * kWidth;
+    exit.is_in_rows = exit.is_in_rows && hn::AllTrue(q, hn::Ge(row[kRows - 1][p], distance));
+  }
+  exit.axis = 63 - static_cast<int>(hwy::Num0BitsAboveMS1Bit_Nonzero64(axes | 1));
+  return exit;
+}
+
 void LeaveCube(RayCast& ray, int bits, double limit) {
-  constexpr std::size_t kRows = 4;
   const Q q;
   const QU u;
   const std::uint64_t edge = std::uint64_t{1} << bits;
@@ -162,51 +194,33 @@ void LeaveCube(RayCast& ray, int bits, double limit) {
   }
   if (bits > kRegionBits) skipAhead(t, delta, left, limit);
 
-  // The next steps of each axis, and which of them leaves the cube first.
-  VQ row[kRows][kParts], leaves[kParts];
-  for (std::size_t p = 0; p < kParts; ++p) {
-    leaves[p] = hn::Inf(q);
-    for (std::size_t k = 0; k < kRows; ++k) {
-      row[k][p] = k == 0 ? t[p] : hn::Add(row[k - 1][p], delta[p]);
-      leaves[p] = hn::IfThenElse(hn::Eq(left[p], hn::Set(q, double(k + 1))), row[k][p], leaves[p]);
-    }
-  }
-  const double exit = smallest(leaves);
-  const VQ exits = hn::Set(q, exit);
-  std::uint64_t leaving = 0;  // the axes that do then
-  bool all_rows = true;       // no axis has more steps before that
-  for (std::size_t p = 0; p < kParts; ++p) {
-    std::uint8_t lanes[8] = {};
-    hn::StoreMaskBits(q, hn::Eq(leaves[p], exits), lanes);
-    leaving |= std::uint64_t{lanes[0]} << p * kWidth;
-    all_rows = all_rows && hn::AllTrue(q, hn::Ge(row[kRows - 1][p], exits));
-  }
-  const bool at_once = all_rows && exit <= limit;
-  // Of axes that tie the last goes first, and the ray is outside before the others' turn.
-  const VQ axis = hn::Set(q, static_cast<double>(63 - hwy::Num0BitsAboveMS1Bit_Nonzero64(leaving | 1)));
-  const VQ greatest = hn::Set(q, 65535.0);
+  Rows row;
+  for (std::size_t k = 0; k < kRows; ++k)
+    for (std::size_t p = 0; p < kParts; ++p) row[k][p] = k == 0 ? t[p] : hn::Add(row[k - 1][p], delta[p]);
+  const Exit exit = findExit(row, left);
+  const bool at_once = exit.is_in_rows && exit.distance <= limit;
+  const VQ distance = hn::Set(q, exit.distance), axis = hn::Set(q, double(exit.axis)), last_key = hn::Set(q, 65535.0);
+  ray.entry = exit.distance;
   ray.in_space = true;
   ray.mirrored = 0;
   for (std::size_t p = 0; p < kParts; ++p) {
-    VQ done = hn::Sub(steps[p], left[p]);
+    VQ taken = hn::Sub(steps[p], left[p]);
     if (at_once) {
       VQ more = hn::Zero(q);
       for (std::size_t k = 0; k + 1 < kRows; ++k) {
-        const auto before = hn::Lt(row[k][p], exits);
+        const auto before = hn::Lt(row[k][p], distance);
         t[p] = hn::IfThenElse(before, row[k + 1][p], t[p]);
         more = hn::IfThenElse(before, hn::Set(q, double(k + 1)), more);
       }
-      const auto last = hn::And(hn::Eq(t[p], exits), hn::Ge(hn::Iota(q, double(p * kWidth)), axis));
-      t[p] = hn::IfThenElse(last, hn::Add(t[p], delta[p]), t[p]);
-      more = hn::IfThenElse(last, hn::Add(more, hn::Set(q, 1.0)), more);
-      done = hn::Add(done, more);
+      const auto then = hn::And(hn::Eq(t[p], distance), hn::Ge(hn::Iota(q, double(p * kWidth)), axis));
+      t[p] = hn::IfThenElse(then, hn::Add(t[p], delta[p]), t[p]);
+      taken = hn::Add(taken, hn::IfThenElse(then, hn::Add(more, hn::Set(q, 1.0)), more));
     }
-    const VQ to = hn::Add(toDouble(key[p]), done);
-    ray.in_space = ray.in_space && hn::AllTrue(q, hn::Le(to, greatest));
-    ray.mirrored |= hn::GetLane(hn::SumOfLanes(u, wordOf(toWhole(hn::Min(to, greatest)), p)));
+    const VQ to = hn::Add(toDouble(key[p]), taken);
+    ray.in_space = ray.in_space && hn::AllTrue(q, hn::Le(to, last_key));
+    ray.mirrored |= hn::GetLane(hn::SumOfLanes(u, wordOf(toWhole(hn::Min(to, last_key)), p)));
     hn::Store(t[p], q, ray.t_max.data() + p * kWidth);
   }
-  ray.entry = exit;
   if (!at_once) followUntil(ray, cell_word::outsideOfCube(bits), limit);
 }
 
