@@ -62,16 +62,28 @@ class Tally {
   std::size_t count_ = 0;
 };
 
+/// The time of work that answers to a tally and returns its number of operations. The tally is a local variable, so
+/// that it stays in registers.
+template <class F>
+Sample tallied(F&& work) {
+  Sample sample;
+  sample.seconds = timed([&] {
+    Tally tally;
+    sample.operations = work(tally);
+    sample.answer = tally.sum();
+  });
+  return sample;
+}
+
 // --- search
 // -----------------------------------------------------------------------------------------------------------
 
 template <class Tree, class Places>
 Sample searchAll(const Tree& map, const Places& places, unsigned depth) {
-  Tally tally;
-  const double seconds = timed([&] {
+  return tallied([&](Tally& tally) {
     for (const auto& place : places) tally.addNode(map.search(place, depth));
+    return places.size();
   });
-  return {seconds, places.size(), tally.sum()};
 }
 
 template <class Tree>
@@ -94,8 +106,7 @@ Sample searchAtDepth12(State<Tree>& s, const MapWorkload& work, std::size_t) {
 template <class Tree>
 Sample castAll(const Tree& map, const MapWorkload& work, bool ignore_unknown) {
   constexpr double kRange = 30;  // [m]
-  Tally tally;
-  const double seconds = timed([&] {
+  return tallied([&](Tally& tally) {
     for (const Cast& cast : work.casts) {
       octomap::point3d end;
       tally.add(std::uint64_t{map.castRay(cast.origin, cast.direction, end, ignore_unknown, kRange)});
@@ -103,8 +114,8 @@ Sample castAll(const Tree& map, const MapWorkload& work, bool ignore_unknown) {
       tally.add(end.y());
       tally.add(end.z());
     }
+    return work.casts.size();
   });
-  return {seconds, work.casts.size(), tally.sum()};
 }
 
 template <class Tree>
@@ -121,11 +132,10 @@ Sample castUpToUnknown(State<Tree>& s, const MapWorkload& work, std::size_t) {
 
 template <class Begin, class End>
 Sample iterate(Begin&& begin, End&& end) {
-  Tally tally;
-  const double seconds = timed([&] {
+  return tallied([&](Tally& tally) {
     for (auto it = begin(), last = end(); it != last; ++it) tally.add(it->getLogOdds());
+    return tally.count();
   });
-  return {seconds, tally.count(), tally.sum()};
 }
 
 template <class Tree>
@@ -144,33 +154,31 @@ Sample iterateBox(State<Tree>& s, const MapWorkload& work, std::size_t) {
 
 template <class Tree>
 Sample iterateWithCoordinates(State<Tree>& s, const MapWorkload&, std::size_t) {
-  Tally tally;
-  std::size_t leaves = 0;
-  const double seconds = timed([&] {
+  return tallied([&](Tally& tally) {
+    std::size_t leaves = 0;
     for (auto it = s.map->begin_leafs(), last = s.map->end_leafs(); it != last; ++it, ++leaves) {
       const octomap::point3d centre = it.getCoordinate();
       tally.add(centre.x() + centre.y() + centre.z());
       tally.add(it.getSize());
     }
+    return leaves;
   });
-  return {seconds, leaves, tally.sum()};
 }
 
 /// Through a const tree: the other getters remember the answer.
 template <class Tree>
 Sample metricBounds(State<Tree>& s, const MapWorkload&, std::size_t) {
-  Tally tally;
-  double x = 0, y = 0, z = 0;
-  const auto add = [&] {
-    for (const double v : {x, y, z}) tally.add(v);
-  };
-  const double seconds = timed([&] {
+  return tallied([&](Tally& tally) {
+    double x = 0, y = 0, z = 0;
+    const auto add = [&] {
+      for (const double v : {x, y, z}) tally.add(v);
+    };
     std::as_const(*s.map).getMetricMin(x, y, z);
     add();
     std::as_const(*s.map).getMetricMax(x, y, z);
     add();
+    return std::size_t{1};
   });
-  return {seconds, 1, tally.sum()};
 }
 
 // --- files: the part after the text header
@@ -280,11 +288,10 @@ Sample pruneAll(State<Tree>& s, const MapWorkload&, std::size_t) {
 
 template <class Cells, class F>
 Sample changeAll(const Cells& cells, F&& change) {
-  Tally tally;
-  const double seconds = timed([&] {
+  return tallied([&](Tally& tally) {
     for (const CellUpdate& cell : cells) tally.addNode(change(cell));
+    return cells.size();
   });
-  return {seconds, cells.size(), tally.sum()};
 }
 
 template <class Tree>

@@ -58,11 +58,7 @@ struct alignas(128) Block {
 
   /// Smallest key of the node in a slot.
   OcTreeKey cornerOf(int slot) const {
-    const auto cell = static_cast<unsigned>(firstCell(slot));
-    const int shift = cellShift(level);
-    return {static_cast<key_type>(corner[0] + (gather3(cell) << shift)),
-            static_cast<key_type>(corner[1] + (gather3(cell >> 1) << shift)),
-            static_cast<key_type>(corner[2] + (gather3(cell >> 2) << shift))};
+    return keyOfWord(keyWord(corner) + (cellOffset(static_cast<unsigned>(firstCell(slot))) << cellShift(level)));
   }
 };
 static_assert(sizeof(Block) == 384);
@@ -101,8 +97,13 @@ struct NodeRef {
 
   explicit operator bool() const { return block != nullptr; }
   bool operator==(const NodeRef&) const = default;
+  /// At depth 16, as most nodes are.
+  bool isCell() const { return slot < kCells && block->level == kRegionLevel; }
   unsigned depth() const { return block->depth(slot); }
-  OcTreeKey corner() const { return block->cornerOf(slot); }
+  OcTreeKey corner() const {
+    return isCell() ? keyOfWord(keyWord(block->corner) | cellOffset(static_cast<unsigned>(slot)))
+                    : block->cornerOf(slot);
+  }
   int sibling() const { return slot & 7; }
 };
 

@@ -34,10 +34,7 @@ inline std::uint64_t regionKey(std::uint64_t word) {
 }
 
 inline OcTreeKey toKey(std::uint64_t word) {
-  std::uint64_t cell = word & 511;
-  cell = (cell | cell << 15 | cell << 30) & 0x0049'0049'0049;  // gather3 of the three axes at once
-  cell = (cell | cell >> 2 | cell >> 4) & 0x0007'0007'0007;
-  return keyOfWord(regionWord(word) | cell);
+  return keyOfWord(regionWord(word) | cellOffset(word & (kCellsInBlock - 1)));
 }
 
 /// What to add along an axis for a step of +1, -1 or 0.

@@ -201,9 +201,7 @@ class KeySet {
 
   OcTreeKey keyAt(std::size_t place) const {
     const std::uint64_t name = regions_[place / kRegionCells].name;
-    const auto cell = static_cast<unsigned>(place % kRegionCells);
-    const auto axis = [name, cell](int i) { return static_cast<rhmap::key_type>(name >> 16 * i | gather3(cell >> i)); };
-    return {axis(0), axis(1), axis(2)};
+    return keyOfWord(name | cellOffset(static_cast<unsigned>(place % kRegionCells)));
   }
 
   /// First place from this one on that has a cell.

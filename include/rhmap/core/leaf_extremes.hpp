@@ -21,7 +21,7 @@ class LeafExtremes {
       if (block.level == kRegionLevel) {
         if (!couldMove(block)) return;
         LeafWalk walk(block);
-        for (int slot = walk.next(); slot >= 0; slot = walk.next()) add(block, slot);
+        while (walk.findNext()) add(block, walk.take());
       } else {
         for (int slot = 0; slot < kSlots; ++slot)
           if (block.has(slot) && !store.hasChildren({const_cast<Block*>(&block), slot})) add(block, slot);

@@ -43,12 +43,18 @@ class OcTreeIteratorBase {
   NodeType& operator*() { return *node_; }
 
   /// Centre of the node [m].
-  point3d getCoordinate() const { return tree_->keySpace().keyToCoord(getKey(), getDepth()); }
+  point3d getCoordinate() const {
+    const KeySpace& keys = tree_->keySpace();
+    return at_.isCell() ? keys.keyToCoord(at_.corner()) : keys.keyToCoord(getKey(), getDepth());
+  }
   double getX() const { return tree_->keySpace().keyToCoord(getKey()[0], getDepth()); }
   double getY() const { return tree_->keySpace().keyToCoord(getKey()[1], getDepth()); }
   double getZ() const { return tree_->keySpace().keyToCoord(getKey()[2], getDepth()); }
   /// Edge length of the node [m].
-  double getSize() const { return tree_->keySpace().nodeSize(getDepth()); }
+  double getSize() const {
+    const KeySpace& keys = tree_->keySpace();
+    return at_.isCell() ? keys.resolution() : keys.nodeSize(getDepth());
+  }
   unsigned getDepth() const { return at_.depth(); }
   /// Key of the node's centre.
   OcTreeKey getKey() const { return centreKey(at_.corner(), at_.depth()); }
@@ -66,6 +72,7 @@ class OcTreeIteratorBase {
     if (getDepth() >= max_depth_) return false;
     const NodeRef octet = tree_->store().childOctetOf(at_);
     if (!octet) return false;
+    if (octet.slot == kTopOctet && octet.block->level == kRegionLevel) prefetchRegionsAfter(tree_->store(), at_);
     return takeFirst(octet, octet.block->mask[octet.slot], accept);
   }
 
@@ -95,9 +102,8 @@ class OcTreeIteratorBase {
 
   /// To the next leaf of the region that was entered. If there is none any more: false, and passBy() goes on behind it.
   bool nextInRegion() {
-    const int slot = walk_.next();
-    if (slot < 0) return false;
-    moveTo({at_.block, slot});
+    if (!walk_.findNext()) return false;
+    moveTo({at_.block, walk_.take()});
     return true;
   }
 

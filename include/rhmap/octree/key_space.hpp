@@ -61,8 +61,8 @@ class KeySpace {
   double keyToCoord(key_type key, unsigned depth) const {
     if (depth == 0) return 0.0;
     if (depth == kTreeDepth) return keyToCoord(key);
-    const double cells = (double(key) - double(kTreeMaxVal)) / double(1U << (kTreeDepth - depth));
-    return (std::floor(cells) + 0.5) * nodeSize(depth);
+    const int node = (int(key) - int(kTreeMaxVal)) >> (kTreeDepth - depth);  // the floor of the quotient
+    return (double(node) + 0.5) * nodeSize(depth);
   }
 
   point3d keyToCoord(const OcTreeKey& key) const {
