@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdlib>
+#include <new>
 #include <utility>
 
 namespace rhmap {
@@ -21,10 +22,6 @@ std::uint64_t nameOf(int x, int y) {
 
 FreeSpace::FreeSpace(const VoidConfig& config, double cube)
     : config_(config), cube_(cube), shift_(config.cell > 3 * cube ? 2 : 1) {}
-
-FreeSpace::~FreeSpace() {
-  tiles_.forEach([](Tile& tile) { delete &tile; });
-}
 
 /// The window follows the sensor up and down.
 void FreeSpace::Tile::moveTo(int z) {
@@ -52,28 +49,25 @@ void FreeSpace::openWindow(const std::array<int, 3>& cell) {
     for (int x = x0 >> 3; x < (x0 + side) >> 3; ++x) window_.push_back(tiles_.find(nameOf(x, y)));
 }
 
-/// Visits the tiles for which one of some grids has something: visit(tile, x, y), with the tile's first column in the
-/// window.
+/// Visits the columns for which one of some grids has something: visit(tile, i, x, y), with the tile's column `i` at
+/// (x, y) in the window. Which those are is hard to guess, and is found out without branches.
 template <class F, class... Grids>
-void FreeSpace::forEachTile(F&& visit, const Grids&... grids) {
+void FreeSpace::forEachColumn(F&& visit, const Grids&... grids) {
   std::size_t number = 0;
   for (int ty = 0; ty < ends_.side(); ty += 8) {
     for (int tx = 0; tx < ends_.side(); tx += 8, ++number) {
+      std::uint64_t columns = 0;
+      for (int i = 0; i < 64; ++i) columns |= std::uint64_t{(grids.word(tx + i % 8, ty + i / 8) | ...) != 0} << i;
+      if (columns == 0) continue;
       Tile*& tile = window_[number];
-      std::uint64_t any = 0;
-      for (int i = 0; i < 64; ++i) {
-        const std::uint64_t cells = (grids.word(tx + i % 8, ty + i / 8) | ...);
-        any |= cells;  // asked for without branches: where there are none, for what is there already
-        if (tile != nullptr) __builtin_prefetch(&tile->columns[static_cast<std::size_t>(cells != 0 ? i : 0)]);
-      }
-      if (any == 0) continue;
       if (tile == nullptr) {
         const int x = (ends_.x0() + tx) >> 3, y = (ends_.y0() + ty) >> 3;
-        tile = new Tile{.x = x, .y = y, .z0 = ends_.z0()};
+        tile = new (tile_pool_.allocate()) Tile{.x = x, .y = y, .z0 = ends_.z0()};
         tiles_.insert(nameOf(x, y), tile);
       }
       tile->moveTo(ends_.z0());
-      visit(*tile, tx, ty);
+      forEachBit(columns, [&](int i) { __builtin_prefetch(&tile->columns[static_cast<std::size_t>(i)]); });
+      forEachBit(columns, [&](int i) { visit(*tile, static_cast<std::size_t>(i), tx + i % 8, ty + i / 8); });
     }
   }
 }
@@ -86,10 +80,10 @@ void FreeSpace::observe(const ScanTrace& trace, const std::array<float, 3>& sens
   }
   openWindow(cell);
   if (trace.scan % static_cast<std::uint32_t>(config_.interval) == 0) {
-    VoidRays rays;
+    rays_.clear();
     crossed_.resetTo(hit_);
-    markHits(trace, &rays);
-    followRays(from_, rays, hit_, crossed_);
+    markHits(trace, &rays_);
+    followRays(from_, rays_, hit_, crossed_);
     crossed_.closeGaps(hit_);
     update();
   } else {
@@ -152,14 +146,7 @@ void FreeSpace::fill(const CellGrid& cells) {
 
 /// Where something is, the count of scans that have crossed begins again.
 void FreeSpace::forgetHit() {
-  forEachTile(
-      [&](Tile& tile, int tx, int ty) {
-        for (int i = 0; i < 64; ++i) {
-          const std::uint64_t hit = hit_.word(tx + i % 8, ty + i / 8);
-          if (hit != 0) tile.columns[static_cast<std::size_t>(i)].crossed.reset(hit);
-        }
-      },
-      hit_);
+  forEachColumn([&](Tile& tile, std::size_t i, int x, int y) { tile.columns[i].crossed.reset(hit_.word(x, y)); }, hit_);
 }
 
 /// Takes the scan's cells into the tiles' counters, finds the void, and what has come to stay there: cells that are hit
@@ -168,25 +155,23 @@ void FreeSpace::update() {
   clear_ = crossed_.eroded(std::move(clear_));
   open_ = crossed_.erodedToOneSide(std::move(open_));
   stayed_.resetTo(ends_);
-  forEachTile(
-      [&](Tile& tile, int tx, int ty) {
-        for (int i = 0; i < 64; ++i) {
-          const int cx = tx + i % 8, cy = ty + i / 8;
-          CellColumn& column = tile.columns[static_cast<std::size_t>(i)];
-          if (const std::uint64_t ends = ends_.word(cx, cy); ends != 0) {
-            Counters<8>& hits = tile.hits[static_cast<std::size_t>(i)];
-            hits.reset(ends & column.crossed.atLeast(1));
-            hits.countUp(ends);
-            stayed_.word(cx, cy) =
-                ends & (column.is_void | column.is_open) & hits.atLeast(static_cast<unsigned>(config_.tau_r));
-          }
-          column.crossed.reset(hit_.word(cx, cy));
-          column.crossed.countUp(crossed_.word(cx, cy));
-          column.crossings.countUp(crossed_.word(cx, cy));
-          const std::uint64_t often = column.crossed.atLeast(static_cast<unsigned>(config_.tau_f));
-          column.is_void |= clear_.word(cx, cy) & often;
-          column.is_open |= open_.word(cx, cy) & often;
+  forEachColumn(
+      [&](Tile& tile, std::size_t i, int x, int y) {
+        CellColumn& column = tile.columns[i];
+        if (const std::uint64_t ends = ends_.word(x, y); ends != 0) {
+          Counters<8>& hits = tile.hits[i];
+          hits.reset(ends & column.crossed.atLeast(1));
+          hits.countUp(ends);
+          stayed_.word(x, y) =
+              ends & (column.is_void | column.is_open) & hits.atLeast(static_cast<unsigned>(config_.tau_r));
         }
+        const std::uint64_t crossed = crossed_.word(x, y);
+        column.crossed.reset(hit_.word(x, y));
+        column.crossed.countUp(crossed);
+        column.crossings.countUp(crossed);
+        const std::uint64_t often = column.crossed.atLeast(static_cast<unsigned>(config_.tau_f));
+        column.is_void |= clear_.word(x, y) & often;
+        column.is_open |= open_.word(x, y) & often;
       },
       crossed_, hit_);
   fill(stayed_);
@@ -202,7 +187,7 @@ void FreeSpace::forgetBeyond(const OcTreeKey& centre, int distance) {
   for (Tile* tile : far) {
     tiles_.erase(nameOf(tile->x, tile->y));
     std::replace(window_.begin(), window_.end(), tile, static_cast<Tile*>(nullptr));
-    delete tile;
+    tile_pool_.release(tile);
   }
 }
 

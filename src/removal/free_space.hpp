@@ -6,12 +6,14 @@
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
+#include <type_traits>
 #include <vector>
 
 #include "cell_counters.hpp"
 #include "cell_grid.hpp"
 #include "region_map.hpp"
 #include "rhmap/core/block_index.hpp"
+#include "rhmap/core/record_pool.hpp"
 #include "rhmap/removal/removal_config.hpp"
 #include "scan_trace.hpp"
 #include "void_rays.hpp"
@@ -41,7 +43,6 @@ class FreeSpace {
   FreeSpace(const VoidConfig& config, double cube);
   FreeSpace(const FreeSpace&) = delete;
   FreeSpace& operator=(const FreeSpace&) = delete;
-  ~FreeSpace();
 
   /// Takes in a scan whose hits are marked. `sensor` in keys (a cube's centre is its key).
   void observe(const ScanTrace& trace, const std::array<float, 3>& sensor);
@@ -119,7 +120,7 @@ class FreeSpace {
   double width() const { return cube_ * (1 << shift_); }
   void openWindow(const std::array<int, 3>& cell);
   template <class F, class... Grids>
-  void forEachTile(F&& visit, const Grids&... grids);
+  void forEachColumn(F&& visit, const Grids&... grids);
   void markHits(const ScanTrace& trace, VoidRays* rays);
   void fill(const CellGrid& cells);
   void forgetHit();
@@ -134,8 +135,11 @@ class FreeSpace {
   CellGrid crossed_;             // by its rays
   CellGrid clear_, open_;        // and all of a cell's neighbours with it, or but for one side
   CellGrid stayed_, filled_;     // cells that are ordinary again, and those around them
+  VoidRays rays_;                // kept for their memory
   std::vector<Tile*> window_;    // those around the sensor, row by row; null where there is none
   BlockIndex<Tile> tiles_;
+  static_assert(std::is_trivially_destructible_v<Tile>);
+  RecordPool tile_pool_{{.bytes = sizeof(Tile), .many = true}};
 };
 
 }  // namespace rhmap

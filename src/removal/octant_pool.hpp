@@ -36,7 +36,7 @@ class OctantPool {
     return RecordPool::apartOf(octant, sizeof(Octant), sizeof(OctantHistory));
   }
 
-  RecordPool pool_{sizeof(Octant), sizeof(OctantHistory)};
+  RecordPool pool_{{.bytes = sizeof(Octant), .apart = sizeof(OctantHistory), .many = true}};
 };
 
 /// Of an octant of a RegionMap.

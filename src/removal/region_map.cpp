@@ -42,10 +42,11 @@ void Region::remove(std::size_t o, std::uint64_t old_cubes) {
 RegionMap::RegionMap(int size, Reader read)
     : bits_(std::countr_zero(static_cast<unsigned>(size))),
       read_(std::move(read)),
-      region_pool_(recordBytes(octants())) {}
+      column_pool_({.bytes = sizeof(Column), .many = true}),
+      region_pool_({.bytes = recordBytes(octants()), .many = true}) {}
 
 RegionMap::~RegionMap() {
-  for (const Place& place : in_order_) delete place.column;
+  for (const Place& place : in_order_) place.column->~Column();
 }
 
 Region* RegionMap::makeRegion(Column& column, key_type z) {
@@ -61,7 +62,7 @@ void RegionMap::makeOctant(Region& region, std::size_t o) {
 
 Column& RegionMap::getOrCreate(key_type x, key_type y) {
   if (Column* known = find(x, y)) return *known;
-  auto* column = new Column{.x = x, .y = y, .regions = {}, .ground = {}};
+  auto* column = new (column_pool_.allocate()) Column{.x = x, .y = y, .regions = {}, .ground = {}};
   columns_.insert(nameOf(x, y), column);
   in_order_.push_back({x, y, column});
   for (std::size_t i = 0; i < kAround.size(); ++i) {
@@ -128,16 +129,16 @@ void RegionMap::forgetBeyond(const OcTreeKey& centre, int distance) {
                  [&](int o) { octant_pool_.release(&region->octant(static_cast<std::size_t>(o))); });
       region_pool_.release(region);
     }
-    delete column;
+    column->~Column();
+    column_pool_.release(column);
     return true;
   });
 }
 
 std::size_t RegionMap::memoryUsage() const {
-  std::size_t bytes =
-      columns_.memoryUsage() + regions_.memoryUsage() + region_pool_.memoryUsage() + octant_pool_.memoryUsage();
-  columns_.forEach(
-      [&](const Column& column) { bytes += sizeof(Column) + column.regions.capacity() * sizeof(column.regions[0]); });
+  std::size_t bytes = columns_.memoryUsage() + regions_.memoryUsage() + column_pool_.memoryUsage() +
+                      region_pool_.memoryUsage() + octant_pool_.memoryUsage();
+  for (const Place& place : in_order_) bytes += place.column->regions.capacity() * sizeof(place.column->regions[0]);
   return bytes;
 }
 

@@ -231,6 +231,7 @@ class RegionMap {
 
   int bits_;
   Reader read_;
+  RecordPool column_pool_;
   RecordPool region_pool_;  // each with the places of its octants
   OctantPool octant_pool_;
   BlockIndex<Column> columns_;

@@ -15,6 +15,10 @@ struct VoidRays {
   std::vector<float> share;    ///< of each that is followed
 
   std::size_t size() const { return x.size(); }
+  void clear() {
+    x.clear(), y.clear(), z.clear();
+    share.clear();
+  }
   void push(const std::array<float, 3>& to, float followed) {
     x.push_back(to[0]), y.push_back(to[1]), z.push_back(to[2]);
     share.push_back(followed);

@@ -8,6 +8,8 @@
 #include <utility>
 #include <vector>
 
+#include "rhmap/core/large_piece.hpp"
+
 namespace rhmap {
 
 /// Open-addressing hash table from 64-bit keys to pointers: linear probing, deletion by shifting back, so that a probe
@@ -126,14 +128,14 @@ class BlockIndex {
   }
 
   void grow() {
-    const std::vector<Pair> old = std::exchange(pairs_, std::vector<Pair>(pairs_.empty() ? 8 : pairs_.size() * 2));
+    const auto old = std::exchange(pairs_, decltype(pairs_)(pairs_.empty() ? 8 : pairs_.size() * 2));
     shift_ = 65 - static_cast<int>(std::bit_width(pairs_.size()));
     for (const Pair& pair : old)
       for (int i = 0; i < 2; ++i)
         if (pair.value[i] != nullptr) place(pair.key[i], pair.value[i]);
   }
 
-  std::vector<Pair> pairs_;  // a power of two
+  std::vector<Pair, LargePageAllocator<Pair>> pairs_;  // a power of two
   std::size_t size_ = 0;
   int shift_ = 64;
 };

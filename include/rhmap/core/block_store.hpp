@@ -405,7 +405,7 @@ class BlockStore {
   }
 
   BlockIndex<Block> index_;
-  RecordPool blocks_{sizeof(Block)};
+  RecordPool blocks_{{.bytes = sizeof(Block)}};
   OctetPool<NODE> nodes_{this, childrenAround};
   Block* root_ = nullptr;
   Trunk<NODE> trunk_;

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstddef>
+#include <memory>
 
 namespace rhmap {
 
@@ -15,5 +16,35 @@ inline constexpr std::size_t kLargePieceBytes = std::size_t{1} << 21;
 /// one fault instead of 512, and random access finds it without a walk through the page tables.
 void* allocateLargePiece(bool as_large_page);
 void freeLargePiece(void* piece) noexcept;
+
+/// Makes a piece that is in use one large page, where the system can. Nothing in it changes.
+void makeLargePage(void* piece) noexcept;
+
+/// Any number of bytes in large pages, as many as hold them.
+void* allocateLargePages(std::size_t bytes);
+void freeLargePages(void* memory, std::size_t bytes) noexcept;
+
+/// Memory for what is read at random and may be large, as a hash table: from one large page on, large pages.
+template <class T>
+struct LargePageAllocator {
+  using value_type = T;
+
+  LargePageAllocator() = default;
+  template <class U>
+  LargePageAllocator(const LargePageAllocator<U>&) noexcept {}
+
+  T* allocate(std::size_t n) {
+    return n < kLargePieceBytes / sizeof(T) ? std::allocator<T>().allocate(n)
+                                            : static_cast<T*>(allocateLargePages(n * sizeof(T)));
+  }
+  void deallocate(T* memory, std::size_t n) noexcept {
+    if (n < kLargePieceBytes / sizeof(T))
+      std::allocator<T>().deallocate(memory, n);
+    else
+      freeLargePages(memory, n * sizeof(T));
+  }
+
+  bool operator==(const LargePageAllocator&) const = default;
+};
 
 }  // namespace rhmap

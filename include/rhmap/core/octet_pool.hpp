@@ -154,6 +154,8 @@ class OctetPool {
 
   SlabHeader* newSlab(bool inner) {
     void* memory = allocateLargePiece(slabs_.size() >= 2);  // small maps stay small
+    if (slabs_.size() == 2)
+      for (SlabHeader* slab : slabs_) makeLargePage(slab);
     auto* slab = new (memory) SlabHeader{inner, store_, children_};
     try {
       addSlab(slab);

@@ -10,12 +10,17 @@
 
 namespace rhmap {
 
+/// What a RecordPool is for.
+struct Records {
+  std::size_t bytes;      ///< of each, those of a pointer or more; multiples of an alignment are aligned so
+  std::size_t apart = 0;  ///< of what belongs to each but lies apart, so that the records are dense; see apartOf()
+  bool many = false;      ///< megabytes of them in any case; else, while there are few, little memory is taken
+};
+
 /// Memory for records of one size, at addresses that stay. Released records are kept for reuse.
 class RecordPool {
  public:
-  /// `bytes`: of a record, that of a pointer or more. Multiples of an alignment (up to kLargePieceBytes) are aligned
-  /// so. `apart`: of what belongs to each but lies apart, so that the records are dense; see apartOf().
-  explicit RecordPool(std::size_t bytes, std::size_t apart = 0) : bytes_(bytes), apart_(apart) {}
+  explicit RecordPool(const Records& records) : records_(records) {}
   RecordPool(const RecordPool&) = delete;
   RecordPool& operator=(const RecordPool&) = delete;
   ~RecordPool() { clear(); }
@@ -28,7 +33,7 @@ class RecordPool {
     }
     if (next_ == end_) addPiece();
     void* record = next_;
-    next_ += bytes_;
+    next_ += records_.bytes;
     return record;
   }
 
@@ -54,7 +59,7 @@ class RecordPool {
   }
 
   std::size_t memoryUsage() const {
-    return (capacity_ - static_cast<std::size_t>(end_ - next_) / bytes_) * (bytes_ + apart_);
+    return (capacity_ - static_cast<std::size_t>(end_ - next_) / records_.bytes) * (records_.bytes + records_.apart);
   }
 
  private:
@@ -63,16 +68,17 @@ class RecordPool {
   }
 
   void addPiece() {
-    const std::size_t records = inPiece(bytes_, apart_);
+    const std::size_t records = inPiece(records_.bytes, records_.apart);
     pieces_.reserve(pieces_.size() + 1);
-    void* piece = allocateLargePiece(!pieces_.empty());  // small maps stay small
+    void* piece = allocateLargePiece(records_.many || !pieces_.empty());
+    if (pieces_.size() == 1 && !records_.many) makeLargePage(pieces_.front());
     pieces_.push_back(piece);
     capacity_ += records;
     next_ = static_cast<char*>(piece);
-    end_ = next_ + records * bytes_;
+    end_ = next_ + records * records_.bytes;
   }
 
-  std::size_t bytes_, apart_;
+  Records records_;
   std::vector<void*> pieces_;
   void* released_ = nullptr;  // the last of them; each holds the address of the one before
   std::size_t capacity_ = 0;  // records
