@@ -13,8 +13,17 @@ std::uint64_t upright(std::uint64_t cells) { return cells & cells << 1 & cells >
 
 // The loops below have no branches, so that they become vector code.
 
+void CellGrid::openInside(const CellGrid& other) {
+  open(other.x0_, other.y0_, other.z0_, other.side_);
+  is_whole_ = true;
+  const auto side = static_cast<std::size_t>(side_);
+  std::fill_n(words_.begin(), side, 0);
+  std::fill_n(words_.rbegin(), side, 0);
+  for (std::size_t y = 1; y < side; ++y) words_[y * side - 1] = words_[y * side] = 0;
+}
+
 CellGrid CellGrid::eroded(CellGrid result) const {
-  result.resetTo(*this);
+  result.openInside(*this);
   const auto side = static_cast<std::size_t>(side_);
   std::vector<std::uint64_t> along_y(side);
   for (std::size_t y = 1; y + 1 < side; ++y) {
@@ -27,7 +36,7 @@ CellGrid CellGrid::eroded(CellGrid result) const {
 }
 
 CellGrid CellGrid::erodedToOneSide(CellGrid result) const {
-  result.resetTo(*this);
+  result.openInside(*this);
   const auto side = static_cast<std::size_t>(side_);
   std::vector<std::uint64_t> before(side), here(side), after(side), along_y(side);
   for (std::size_t y = 1; y + 1 < side; ++y) {
@@ -54,7 +63,8 @@ void CellGrid::growInto(const CellGrid& other, const Cell& from, std::vector<Cel
   for (int y = std::max(0, from.y - y0_ - 1); y <= std::min(side_ - 1, from.y - y0_ + 1); ++y) {
     for (int x = std::max(0, from.x - x0_ - 1); x <= std::min(side_ - 1, from.x - x0_ + 1); ++x) {
       const std::uint64_t fresh = near & other.word(x, y) & ~word(x, y);
-      word(x, y) |= fresh;
+      if (fresh == 0) continue;
+      touch(x, y) |= fresh;
       for (std::uint64_t rest = fresh; rest != 0; rest &= rest - 1)
         grown.push_back({x + x0_, y + y0_, std::countr_zero(rest) + z0_});
     }
@@ -69,7 +79,7 @@ CellGrid CellGrid::dilated(CellGrid result) const {
       if (any == 0) continue;
       any |= any << 1 | any >> 1;
       for (int dy = -1; dy <= 1; ++dy)
-        for (int dx = -1; dx <= 1; ++dx) result.word(x + dx, y + dy) |= any;
+        for (int dx = -1; dx <= 1; ++dx) result.touch(x + dx, y + dy) |= any;
     }
   }
   return result;

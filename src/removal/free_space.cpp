@@ -56,6 +56,7 @@ void FreeSpace::forEachColumn(F&& visit, const Grids&... grids) {
   std::size_t number = 0;
   for (int ty = 0; ty < ends_.side(); ty += 8) {
     for (int tx = 0; tx < ends_.side(); tx += 8, ++number) {
+      if (!(grids.mayHold(tx, ty) || ...)) continue;
       std::uint64_t columns = 0;
       for (int i = 0; i < 64; ++i) columns |= std::uint64_t{(grids.word(tx + i % 8, ty + i / 8) | ...) != 0} << i;
       if (columns == 0) continue;
@@ -135,6 +136,7 @@ void FreeSpace::fill(const CellGrid& cells) {
       Tile* tile = window_[number];
       if (tile == nullptr) continue;
       tile->moveTo(filled_.z0());
+      if (!filled_.mayHold(tx, ty)) continue;
       for (int i = 0; i < 64; ++i) {
         CellColumn& column = tile->columns[static_cast<std::size_t>(i)];
         column.is_void &= ~filled_.word(tx + i % 8, ty + i / 8);
@@ -162,7 +164,7 @@ void FreeSpace::update() {
           Counters<8>& hits = tile.hits[i];
           hits.reset(ends & column.crossed.atLeast(1));
           hits.countUp(ends);
-          stayed_.word(x, y) =
+          stayed_.touch(x, y) =
               ends & (column.is_void | column.is_open) & hits.atLeast(static_cast<unsigned>(config_.tau_r));
         }
         const std::uint64_t crossed = crossed_.word(x, y);

@@ -2,6 +2,8 @@
 #include "moving_hits.hpp"
 
 #include <algorithm>
+#include <array>
+#include <span>
 #include <utility>
 
 #include "evidence.hpp"
@@ -10,6 +12,7 @@ namespace rhmap {
 namespace {
 
 constexpr double kOctantRadius = 2 * 1.7321;  // cubes
+constexpr std::size_t kOctantsAtATime = 128;
 
 }  // namespace
 
@@ -117,18 +120,22 @@ void MovingHits::lookBack(const ScanTrace& trace) {
     fresh_.push_back({at.corner, cubes});
     fresh_octants_.push_back(at.octant);
   });
-  answers_.assign(fresh_.size(), {});
-  looks_.resize(fresh_.size());
-  for (const Past& past : past_) {
-    past.visibility->look(past.view, fresh_, looks_);
-    for (std::size_t i = 0; i < looks_.size(); ++i) {
-      if (isTooNear(past.view, fresh_[i].corner)) continue;
-      answers_[i].seen.countUp(looks_[i].seen_through | looks_[i].skimmed);
-      answers_[i].contrary.countUp(looks_[i].filled);
+  // So many octants at a time that what is said of them stays near.
+  for (std::size_t first = 0; first < fresh_.size(); first += kOctantsAtATime) {
+    const std::span fresh = std::span(fresh_).subspan(first, std::min(kOctantsAtATime, fresh_.size() - first));
+    std::array<Answers, kOctantsAtATime> answers{};
+    std::array<CubeLooks, kOctantsAtATime> looks;
+    for (const Past& past : past_) {
+      past.visibility->look(past.view, fresh, std::span(looks).first(fresh.size()));
+      for (std::size_t i = 0; i < fresh.size(); ++i) {
+        if (isTooNear(past.view, fresh[i].corner)) continue;
+        answers[i].seen.countUp(looks[i].seen_through | looks[i].skimmed);
+        answers[i].contrary.countUp(looks[i].filled);
+      }
     }
+    for (std::size_t i = 0; i < fresh.size(); ++i)
+      fresh_octants_[first + i]->appeared = answers[i].seen.moreThan(answers[i].contrary);
   }
-  for (std::size_t i = 0; i < fresh_.size(); ++i)
-    fresh_octants_[i]->appeared = answers_[i].seen.moreThan(answers_[i].contrary);
 }
 
 /// Whether what a scan returned from an octant may have been left out as too near: it looks empty then.

@@ -69,8 +69,6 @@ class MovingHits {
   std::vector<Cell> rim_, next_rim_;  // of these, the last ones
   std::vector<CubesAt> fresh_;        // what is new to the map, and of each octant
   std::vector<Octant*> fresh_octants_;
-  std::vector<CubeLooks> looks_;
-  std::vector<Answers> answers_;
 };
 
 }  // namespace rhmap

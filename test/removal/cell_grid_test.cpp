@@ -12,7 +12,7 @@
 namespace rhmap {
 namespace {
 
-constexpr int kX = -4, kY = 7, kZ = 100, kSide = 12;
+constexpr int kX = -4, kY = 7, kZ = 100, kSide = 16;
 
 CellGrid randomGrid(unsigned seed, unsigned percent) {
   std::mt19937 random(seed);
@@ -104,8 +104,8 @@ TEST(CellGrid, ClosesGapsOfOneCellBetweenUpperAndLower) {
 }
 
 TEST(CellGrid, GrowsIntoWhatIsSetInAnother) {
-  const CellGrid other = randomGrid(12, 50);
-  CellGrid grid = randomGrid(13, 20);
+  const CellGrid other = randomGrid(20, 50);
+  CellGrid grid = randomGrid(21, 20);
   for (const Cell from : {Cell{kX + 5, kY + 5, kZ + 30}, Cell{kX, kY + kSide - 1, kZ}, Cell{kX + 3, kY + 3, kZ + 63},
                           Cell{kX + 5, kY + 5, kZ + 64}}) {
     const CellGrid before = grid;
@@ -123,6 +123,33 @@ TEST(CellGrid, GrowsIntoWhatIsSetInAnother) {
     EXPECT_EQ(grown.size(), fresh);
     EXPECT_EQ(fresh > 0, from.z < kZ + 64);
   }
+}
+
+TEST(CellGrid, IsClearAfterReset) {
+  const CellGrid clear(0, 0, 0, 24), other = randomGrid(19, 50);
+  const auto expectClear = [&](CellGrid& grid) {
+    for (const int side : {24, 16, 24}) {
+      grid.reset(5, 6, 7, side);
+      EXPECT_TRUE(grid.empty());
+      for (int y = 0; y < side; ++y)
+        for (int x = 0; x < side; ++x) ASSERT_EQ(grid.word(x, y), 0) << x << ' ' << y;
+      for (int y = 0; y < side; y += 8)
+        for (int x = 0; x < side; x += 8) EXPECT_FALSE(grid.mayHold(x, y));
+      for (int i = 0; i < side; i += 3) grid.set(5 + i, 6 + i * i % side, 7 + i);
+      EXPECT_FALSE(grid.empty());
+      for (int i = 0; i < side; i += 3) EXPECT_TRUE(grid.mayHold(i & ~7, i * i % side & ~7));
+    }
+    grid.reset(0, 0, 0, 24);
+  };
+  CellGrid grid = clear;
+  expectClear(grid);
+  grid.data()[77] = 1;
+  EXPECT_TRUE(grid.mayHold(0, 0));
+  expectClear(grid);
+  for (CellGrid filled : {other, other.eroded({}), other.erodedToOneSide({}), other.dilated({})}) expectClear(filled);
+  CellGrid closed = other;
+  closed.closeGaps(clear);
+  expectClear(closed);
 }
 
 TEST(CellGrid, KnowsNothingOutsideOfItsWindow) {
