@@ -20,7 +20,7 @@ class LeafExtremes {
     store.forEachBlock([&](const Block& block) {
       if (block.level == kRegionLevel) {
         if (!couldMove(block)) return;
-        LeafWalk walk(block);
+        LeafWalk<> walk(block);
         while (walk.findNext()) add(block, walk.take());
       } else {
         for (int slot = 0; slot < kSlots; ++slot)

@@ -12,8 +12,9 @@
 namespace rhmap {
 
 /// OctoMap's iterators without a stack: a node's place is enough to find the next one, depth first, children 0 ... 7.
-/// Any structural change invalidates; changed values do not. `TREE` gives `store()` and `keySpace()`.
-template <class TREE>
+/// Any structural change invalidates; changed values do not. `TREE` gives `store()` and `keySpace()`, `Wanted` says
+/// which leaves of regions that are entered as a whole are.
+template <class TREE, class Wanted = AllLeaves>
 class OcTreeIteratorBase {
  public:
   using NodeType = typename TREE::NodeType;
@@ -89,15 +90,19 @@ class OcTreeIteratorBase {
     *this = {};
   }
 
-  /// From a node at depth 13 into its region, if it has one whose leaves are wanted.
-  bool enterRegion() {
+  /// From a node at depth 13 into its region, to the first of the leaves wantedOf(region); false, and no move, if there
+  /// is none.
+  template <class WantedOf>
+  bool enterRegion(WantedOf&& wantedOf) {
     if (at_.block->level != kRegionLevel - 1 || at_.slot >= kCells || max_depth_ != kTreeDepth) return false;
-    const NodeRef octet = tree_->store().childOctetOf(at_);
+    const NodeRef above = at_, octet = tree_->store().childOctetOf(at_);
     if (!octet) return false;
     prefetchRegionsAfter(tree_->store(), at_);
     at_.block = octet.block;
-    walk_ = LeafWalk(*octet.block);
-    return nextInRegion();
+    walk_ = LeafWalk<Wanted>(*octet.block, wantedOf(*octet.block));
+    if (nextInRegion()) return true;
+    at_ = above;
+    return false;
   }
 
   /// To the next leaf of the region that was entered. If there is none any more: false, and passBy() goes on behind it.
@@ -115,7 +120,7 @@ class OcTreeIteratorBase {
   const TREE* tree_ = nullptr;
   NodeRef at_;
   NodeType* node_ = nullptr;  // null at the end
-  LeafWalk walk_;             // in a region that was entered as a whole
+  LeafWalk<Wanted> walk_;     // in a region that was entered as a whole
   unsigned max_depth_ = 0;
 
  private:
@@ -178,7 +183,7 @@ class OcTreeLeafIterator : public OcTreeIteratorBase<TREE> {
  private:
   void descend() {
     if (this->tree_ == nullptr) return;
-    while (!this->enterRegion() && this->enter(Base::everything)) {
+    while (!this->enterRegion([](const Block&) { return AllLeaves(); }) && this->enter(Base::everything)) {
     }
   }
 };
@@ -186,8 +191,8 @@ class OcTreeLeafIterator : public OcTreeIteratorBase<TREE> {
 /// Leaves that touch a box of keys, by OctoMap's test: on the upper side of a leaf it takes one cell more than there
 /// is.
 template <class TREE>
-class OcTreeLeafBbxIterator : public OcTreeIteratorBase<TREE> {
-  using Base = OcTreeIteratorBase<TREE>;
+class OcTreeLeafBbxIterator : public OcTreeIteratorBase<TREE, LeavesInBox> {
+  using Base = OcTreeIteratorBase<TREE, LeavesInBox>;
 
  public:
   OcTreeLeafBbxIterator() = default;
@@ -219,15 +224,6 @@ class OcTreeLeafBbxIterator : public OcTreeIteratorBase<TREE> {
   }
 
  private:
-  /// All cells of the node touch the box.
-  bool isInside() const {
-    const OcTreeKey corner = this->at_.corner();
-    const int last = (1 << (kTreeDepth - this->getDepth())) - 1;
-    for (unsigned i = 0; i < 3; ++i)
-      if (min_[i] > corner[i] || max_[i] < corner[i] + last) return false;
-    return true;
-  }
-
   auto overlap() const {
     return [this](NodeRef child) {
       const unsigned depth = child.depth();
@@ -241,7 +237,8 @@ class OcTreeLeafBbxIterator : public OcTreeIteratorBase<TREE> {
 
   /// To the next leaf from here on: an inner node without an accepted child is passed by.
   void descend() {
-    while (this->tree_ != nullptr && !(isInside() && this->enterRegion()) && !this->atLeaf())
+    const auto inBox = [this](const Block& region) { return LeavesInBox(region.corner, min_, max_); };
+    while (this->tree_ != nullptr && !this->enterRegion(inBox) && !this->atLeaf())
       if (!this->enter(overlap())) this->passBy(overlap());
   }
 
