@@ -17,7 +17,13 @@ struct AllLeaves {
   static constexpr std::uint64_t top(int /*octant*/) { return 1; }
 };
 
-/// Those that touch a box of keys, by OctoMap's test: of larger leaves than cells, from one cell further on.
+/// OctoMap's test of a node against a box of keys, along one axis: on the upper side of nodes that are larger than a
+/// cell it takes one cell more than there is. `first`: smallest key of the node, `edge`: its cells an axis.
+constexpr bool touchesBox(int first, int edge, int min, int max) {
+  return min <= first + (edge == 1 ? 0 : edge) && max >= first;
+}
+
+/// Those that touch a box of keys, by touchesBox().
 class LeavesInBox {
  public:
   static constexpr bool kAll = false;
@@ -28,10 +34,8 @@ class LeavesInBox {
     for (unsigned axis = 0; axis < 3; ++axis) {
       const auto touching = [&](int edge) {
         unsigned nodes = 0;
-        for (int i = 0; i < 8 / edge; ++i) {
-          const int first = corner[axis] + i * edge, last = first + (edge == 1 ? 0 : edge);
-          nodes |= unsigned{min[axis] <= last && max[axis] >= first} << i;
-        }
+        for (int i = 0; i < 8 / edge; ++i)
+          nodes |= unsigned{touchesBox(corner[axis] + i * edge, edge, min[axis], max[axis])} << i;
         return nodes;
       };
       cells_[axis] = static_cast<std::uint8_t>(touching(1));

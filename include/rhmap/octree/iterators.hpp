@@ -188,8 +188,7 @@ class OcTreeLeafIterator : public OcTreeIteratorBase<TREE> {
   }
 };
 
-/// Leaves that touch a box of keys, by OctoMap's test: on the upper side of a leaf it takes one cell more than there
-/// is.
+/// Leaves that touch a box of keys, by touchesBox().
 template <class TREE>
 class OcTreeLeafBbxIterator : public OcTreeIteratorBase<TREE, LeavesInBox> {
   using Base = OcTreeIteratorBase<TREE, LeavesInBox>;
@@ -226,11 +225,10 @@ class OcTreeLeafBbxIterator : public OcTreeIteratorBase<TREE, LeavesInBox> {
  private:
   auto overlap() const {
     return [this](NodeRef child) {
-      const unsigned depth = child.depth();
-      const OcTreeKey key = centreKey(child.corner(), depth);
-      const int half = kTreeMaxVal >> depth;
+      const OcTreeKey corner = child.corner();
+      const int edge = 1 << (kTreeDepth - child.depth());
       for (unsigned i = 0; i < 3; ++i)
-        if (min_[i] > key[i] + half || max_[i] < key[i] - half) return false;
+        if (!touchesBox(corner[i], edge, min_[i], max_[i])) return false;
       return true;
     };
   }
