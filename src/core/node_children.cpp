@@ -9,10 +9,10 @@
 namespace rhmap {
 namespace {
 
-// One bit for each place where a slab may be, in pieces that come into being where slabs are: 48 bits of address are 28
-// bits of slab, 14 for the directory and 14 inside a piece of 2 kB.
+// One bit for each place where a slab may be, in pieces that come into being where slabs are: 48 bits of address are 30
+// bits of slab, 14 for the directory and 16 inside a piece of 8 kB.
 constexpr int kSlabShift = std::countr_zero(kSlabBytes);
-constexpr int kPieceBits = 14;
+constexpr int kPieceBits = 16;
 constexpr std::size_t kPieces = std::size_t{1} << (48 - kSlabShift - kPieceBits);
 
 using Piece = std::array<std::atomic<std::uint64_t>, (std::size_t{1} << kPieceBits) / 64>;

@@ -139,7 +139,8 @@ class FreeSpace {
   std::vector<Tile*> window_;    // those around the sensor, row by row; null where there is none
   BlockIndex<Tile> tiles_;
   static_assert(std::is_trivially_destructible_v<Tile>);
-  RecordPool tile_pool_{{.bytes = sizeof(Tile), .many = true}};
+  PiecePool pieces_{true};
+  RecordPool tile_pool_{pieces_, {.bytes = sizeof(Tile)}};
 };
 
 }  // namespace rhmap

@@ -14,6 +14,8 @@ namespace rhmap {
 /// apart, and the address of the masks tells where.
 class OctantPool {
  public:
+  explicit OctantPool(PiecePool& pieces) : pool_(pieces, {.bytes = sizeof(Octant), .apart = sizeof(OctantHistory)}) {}
+
   /// Of nothing that is known yet.
   Octant* allocate() {
     auto* octant = new (pool_.allocate()) Octant();
@@ -36,7 +38,7 @@ class OctantPool {
     return RecordPool::apartOf(octant, sizeof(Octant), sizeof(OctantHistory));
   }
 
-  RecordPool pool_{{.bytes = sizeof(Octant), .apart = sizeof(OctantHistory), .many = true}};
+  RecordPool pool_;
 };
 
 /// Of an octant of a RegionMap.

@@ -42,8 +42,7 @@ void Region::remove(std::size_t o, std::uint64_t old_cubes) {
 RegionMap::RegionMap(int size, Reader read)
     : bits_(std::countr_zero(static_cast<unsigned>(size))),
       read_(std::move(read)),
-      column_pool_({.bytes = sizeof(Column), .many = true}),
-      region_pool_({.bytes = recordBytes(octants()), .many = true}) {}
+      region_pool_(pieces_, {.bytes = recordBytes(octants())}) {}
 
 RegionMap::~RegionMap() {
   for (const Place& place : in_order_) place.column->~Column();

@@ -231,9 +231,10 @@ class RegionMap {
 
   int bits_;
   Reader read_;
-  RecordPool column_pool_;
+  PiecePool pieces_{true};
+  RecordPool column_pool_{pieces_, {.bytes = sizeof(Column)}};
   RecordPool region_pool_;  // each with the places of its octants
-  OctantPool octant_pool_;
+  OctantPool octant_pool_{pieces_};
   BlockIndex<Column> columns_;
   BlockIndex<Region> regions_;
   struct Place {

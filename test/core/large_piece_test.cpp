@@ -39,11 +39,12 @@ TEST(LargePageAllocator, ServesVectorsOfAllSizes) {
   }
 }
 
-TEST(RecordPool, KeepsRecordsWhenItOutgrowsItsFirstPiece) {
+TEST(RecordPool, KeepsRecordsWhenTheirPiecesBecomeLargePages) {
   for (const bool many : {false, true}) {
-    RecordPool pool({.bytes = 4096, .many = many});
+    PiecePool pieces(many);
+    RecordPool pool(pieces, {.bytes = 4096});
     std::vector<unsigned char*> records;
-    for (std::size_t i = 0; i < 3 * kLargePieceBytes / 4096; ++i) {
+    for (std::size_t i = 0; i < 5 * kLargePieceBytes / 4096; ++i) {
       records.push_back(static_cast<unsigned char*>(pool.allocate()));
       std::memset(records.back(), static_cast<int>(i % 251), 4096);
     }

@@ -41,16 +41,32 @@ constexpr int firstCell(int slot) {
   return slot < kMiddleSlot ? slot : slot < kTopSlot ? (slot - kMiddleSlot) << 3 : (slot - kTopSlot) << 6;
 }
 
-using OctetRef = std::uint32_t;  ///< an octet's place in the OctetPool
+/// An octet's place in the OctetPool, among those of its block's district. Three bytes in a block.
+using OctetRef = std::uint32_t;
+inline constexpr int kRefBits = 24;
 
-/// Which nodes exist and where they are kept. Six cache lines; the values live in the OctetPool.
-struct alignas(128) Block {
-  std::array<std::uint8_t, kOctets> mask;  ///< mask[o], bit i: node i of octet o exists
-  std::uint8_t level;                      ///< 0 (root) ... 5 (region)
-  OcTreeKey corner;                        ///< smallest key inside
-  std::array<OctetRef, kOctets> octet;     ///< valid where mask[o] != 0
-  std::uint32_t stamp;                     ///< when it was last noted as changed, see BlockJournal
-  Block* parent;                           ///< holds the cell above this block; null at level 0
+/// Which nodes exist and where they are kept. Five cache lines; the values live in the OctetPool.
+struct alignas(64) Block {
+  std::array<std::uint8_t, kOctets> mask;          ///< mask[o], bit i: node i of octet o exists
+  std::uint8_t level;                              ///< 0 (root) ... 5 (region)
+  OcTreeKey corner;                                ///< smallest key inside
+  Block* parent;                                   ///< holds the cell above this block; null at level 0
+  std::uint32_t stamp;                             ///< when it was last noted as changed, see BlockJournal
+  std::uint32_t first_slab;                        ///< of its district of the OctetPool
+  std::array<std::uint8_t, 3 * kOctets + 1> refs;  ///< see ref(); it reads four bytes
+
+  /// Where octet o is; valid where mask[o] != 0.
+  OctetRef ref(int octet) const {
+    std::uint32_t word;
+    std::memcpy(&word, placeOfRef(octet), sizeof word);
+    if constexpr (std::endian::native == std::endian::big) word = __builtin_bswap32(word);
+    return word & ((OctetRef{1} << kRefBits) - 1);
+  }
+  void setRef(int octet, OctetRef ref) {
+    std::uint8_t* place = refs.data() + 3 * octet;
+    for (int i = 0; i < 3; ++i) place[i] = static_cast<std::uint8_t>(ref >> 8 * i);
+  }
+  const std::uint8_t* placeOfRef(int octet) const { return refs.data() + 3 * octet; }
 
   bool has(int slot) const { return mask[static_cast<unsigned>(slot) >> 3] >> (slot & 7) & 1; }
 
@@ -61,7 +77,7 @@ struct alignas(128) Block {
     return keyOfWord(keyWord(corner) + (cellOffset(static_cast<unsigned>(firstCell(slot))) << cellShift(level)));
   }
 };
-static_assert(sizeof(Block) == 384);
+static_assert(sizeof(Block) == 320);
 
 /// The masks of eight octets, the first in the lowest byte.
 inline std::uint64_t masksFrom(const Block& block, int first_octet) {

@@ -73,9 +73,9 @@ class BlockStore {
   /// The same for a cell of this region.
   [[gnu::always_inline]] NODE* findNode(const Block& region, int cell) const {
     // Where most searches go on: it comes while the masks are on their way, not after them.
-    __builtin_prefetch(&region.octet[static_cast<unsigned>(cell) >> 3]);
+    __builtin_prefetch(region.placeOfRef(cell >> 3));
     const CellPlace place = placeOf(region, static_cast<unsigned>(cell));
-    return place.exists() ? nodes_.nodes(region.octet[place.octet]) + place.child : nullptr;
+    return place.exists() ? nodes_.nodes(region, static_cast<int>(place.octet)) + place.child : nullptr;
   }
   /// The same where there is no region.
   [[gnu::noinline]] NODE* findNodeAbove(const OcTreeKey& key) const {
@@ -118,9 +118,7 @@ class BlockStore {
 
   // --- around a node ---
 
-  NODE* node(NodeRef r) const {
-    return nodes_.nodes(r.block->octet[static_cast<unsigned>(r.slot) >> 3]) + (r.slot & 7);
-  }
+  NODE* node(NodeRef r) const { return nodes_.nodes(*r.block, r.slot >> 3) + (r.slot & 7); }
 
   NODE* nodeOrNull(NodeRef r) const { return r ? node(r) : nullptr; }
 
@@ -150,7 +148,7 @@ class BlockStore {
 
   /// Octet `number` of a block; mask[number] must not be 0.
   Octet<NODE> octet(const Block* block, int number) const {
-    return {nodes_.nodes(block->octet[number]), block->mask[number]};
+    return {nodes_.nodes(*block, number), block->mask[number]};
   }
 
   /// True if any of the eight nodes of this octet has children.
@@ -222,11 +220,8 @@ class BlockStore {
   template <class Construct>
   NODE* createNodes(Block* block, int number, std::uint8_t bits, Construct&& construct) {
     touch(block);
-    if (block->mask[number] == 0) {
-      const bool leaves = block->level == kRegionLevel && number < kMiddleOctet;
-      block->octet[number] = leaves ? nodes_.allocateLeaves() : nodes_.allocateInner(block, number);
-    }
-    NODE* nodes = nodes_.nodes(block->octet[number]);
+    NODE* nodes = block->mask[number] == 0 ? nodes_.allocate(nodes_.source(), *block, number)
+                                           : nodes_.nodes(*block, number);
     for (unsigned rest = bits; rest != 0; rest &= rest - 1)
       construct(static_cast<void*>(nodes + std::countr_zero(rest)), std::countr_zero(rest));
     block->mask[number] = static_cast<std::uint8_t>(block->mask[number] | bits);
@@ -267,16 +262,17 @@ class BlockStore {
   /// Removes childless nodes of one octet, and the block with them if nothing is left in it.
   void removeNodes(Block* block, int number, std::uint8_t bits) {
     touch(block);
-    NODE* nodes = nodes_.nodes(block->octet[number]);
+    NODE* nodes = nodes_.nodes(*block, number);
     for (unsigned rest = bits; rest != 0; rest &= rest - 1) nodes[std::countr_zero(rest)].~NODE();
     block->mask[number] = static_cast<std::uint8_t>(block->mask[number] & ~bits);
     size_ -= static_cast<std::size_t>(popcount(bits));
     ++version_;
     if (block->mask[number] != 0) return;
-    nodes_.release(block->octet[number]);
+    nodes_.release(nodes_.source(), *block, number);
     const bool was_last = number == kTopOctet || (block == root_ && number == kRootSlot >> 3);
     if (!was_last) return;
     index_.erase(blockKey(block->corner, block->level));
+    nodes_.leave(*block);
     blocks_.release(block);
     if (block == trunk_.region) trunk_.region = nullptr;
     if (block == root_) root_ = nullptr;
@@ -304,6 +300,7 @@ class BlockStore {
     index_.clear();
     blocks_.clear();
     nodes_.clear();
+    pieces_.clear();
     trunk_.region = nullptr;
     root_ = nullptr;
     size_ = 0;
@@ -382,11 +379,12 @@ class BlockStore {
   Block* createBlock(const OcTreeKey& corner, int level, Block* parent) {
     auto* block = static_cast<Block*>(blocks_.allocate());
     block->mask.fill(0);
-    block->octet.fill(0);
+    block->refs.fill(0);  // who asks for the memory of octets need not know which of them exist
     block->level = static_cast<std::uint8_t>(level);
     block->corner = corner;
     block->stamp = 0;
     block->parent = parent;
+    nodes_.enter(*block);
     index_.insert(blockKey(corner, level), block);
     return block;
   }
@@ -405,8 +403,9 @@ class BlockStore {
   }
 
   BlockIndex<Block> index_;
-  RecordPool blocks_{{.bytes = sizeof(Block)}};
-  OctetPool<NODE> nodes_{this, childrenAround};
+  PiecePool pieces_;
+  RecordPool blocks_{pieces_, {.bytes = sizeof(Block)}};
+  OctetPool<NODE> nodes_{pieces_, this, childrenAround};
   Block* root_ = nullptr;
   Trunk<NODE> trunk_;
   const Block* last_changed_ = nullptr;  // to compare with, no more: it may be gone

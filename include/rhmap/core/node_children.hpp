@@ -4,7 +4,7 @@
 #include <cstddef>
 #include <cstdint>
 
-#include "rhmap/core/large_piece.hpp"
+#include "rhmap/core/piece_pool.hpp"
 
 namespace rhmap {
 
@@ -33,7 +33,7 @@ class NodeChildren {
 
 /// Slabs are the aligned pieces of memory that nodes live in. All of this size, so that any address inside one tells
 /// where it begins.
-inline constexpr std::size_t kSlabBytes = kLargePieceBytes;
+inline constexpr std::size_t kSlabBytes = kPieceBytes;
 
 /// What stands at the beginning of every slab.
 struct SlabHeader {

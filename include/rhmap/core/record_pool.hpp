@@ -4,9 +4,8 @@
 #include <cstddef>
 #include <cstdint>
 #include <cstring>
-#include <vector>
 
-#include "rhmap/core/large_piece.hpp"
+#include "rhmap/core/piece_pool.hpp"
 
 namespace rhmap {
 
@@ -14,16 +13,15 @@ namespace rhmap {
 struct Records {
   std::size_t bytes;      ///< of each, those of a pointer or more; multiples of an alignment are aligned so
   std::size_t apart = 0;  ///< of what belongs to each but lies apart, so that the records are dense; see apartOf()
-  bool many = false;      ///< megabytes of them in any case; else, while there are few, little memory is taken
 };
 
 /// Memory for records of one size, at addresses that stay. Released records are kept for reuse.
 class RecordPool {
  public:
-  explicit RecordPool(const Records& records) : records_(records) {}
+  /// In pieces of a pool that outlives the records.
+  RecordPool(PiecePool& pieces, const Records& records) : pieces_(&pieces), records_(records) {}
   RecordPool(const RecordPool&) = delete;
   RecordPool& operator=(const RecordPool&) = delete;
-  ~RecordPool() { clear(); }
 
   void* allocate() {
     if (released_ != nullptr) {
@@ -45,14 +43,13 @@ class RecordPool {
   /// What lies apart of a record: in the order of the records, behind all of those in the same piece of memory. Inlined
   /// by force, for who only asks for its memory (see BlockIndex::prefetch).
   [[gnu::always_inline]] static void* apartOf(const void* record, std::size_t bytes, std::size_t apart) {
-    const std::size_t offset = reinterpret_cast<std::uintptr_t>(record) % kLargePieceBytes;
+    const std::size_t offset = reinterpret_cast<std::uintptr_t>(record) % kPieceBytes;
     char* piece = static_cast<char*>(const_cast<void*>(record)) - offset;
     return piece + inPiece(bytes, apart) * bytes + offset / bytes * apart;
   }
 
+  /// Forgets all records, whose memory is about to be freed.
   void clear() {
-    for (void* piece : pieces_) freeLargePiece(piece);
-    pieces_ = decltype(pieces_)();
     released_ = nullptr;
     capacity_ = 0;
     next_ = end_ = nullptr;
@@ -63,23 +60,17 @@ class RecordPool {
   }
 
  private:
-  static constexpr std::size_t inPiece(std::size_t bytes, std::size_t apart) {
-    return kLargePieceBytes / (bytes + apart);
-  }
+  static constexpr std::size_t inPiece(std::size_t bytes, std::size_t apart) { return kPieceBytes / (bytes + apart); }
 
   void addPiece() {
     const std::size_t records = inPiece(records_.bytes, records_.apart);
-    pieces_.reserve(pieces_.size() + 1);
-    void* piece = allocateLargePiece(records_.many || !pieces_.empty());
-    if (pieces_.size() == 1 && !records_.many) makeLargePage(pieces_.front());
-    pieces_.push_back(piece);
-    capacity_ += records;
-    next_ = static_cast<char*>(piece);
+    next_ = static_cast<char*>(pieces_->allocate());
     end_ = next_ + records * records_.bytes;
+    capacity_ += records;
   }
 
+  PiecePool* pieces_;
   Records records_;
-  std::vector<void*> pieces_;
   void* released_ = nullptr;  // the last of them; each holds the address of the one before
   std::size_t capacity_ = 0;  // records
   char* next_ = nullptr;      // of the last piece, up to

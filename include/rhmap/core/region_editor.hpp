@@ -21,7 +21,7 @@ class alignas(64) RegionEditor {
   RegionEditor(OctetPool<NODE>& pool, typename OctetPool<NODE>::Source& source) : pool_(&pool), source_(&source) {}
 
   /// Nodes of an octet that exists.
-  NODE* nodes(const Block& region, int octet) const { return pool_->nodes(region.octet[index(octet)]); }
+  NODE* nodes(const Block& region, int octet) const { return pool_->nodes(region, octet); }
 
   /// Makes nodes of an octet that are not there yet, with the node type's default value. Returns the octet's nodes.
   NODE* create(Block& region, int octet, unsigned bits) {
@@ -34,12 +34,10 @@ class alignas(64) RegionEditor {
   /// The same for the caller to put nodes there.
   NODE* claim(Block& region, int octet, unsigned bits) {
     std::uint8_t& mask = region.mask[index(octet)];
-    if (mask == 0)
-      region.octet[index(octet)] =
-          octet < kMiddleOctet ? pool_->allocateLeaves(*source_) : pool_->allocateInner(*source_, &region, octet);
+    NODE* nodes = mask == 0 ? pool_->allocate(*source_, region, octet) : this->nodes(region, octet);
     mask = static_cast<std::uint8_t>(mask | bits);
     made_ += popcount(bits);
-    return nodes(region, octet);
+    return nodes;
   }
 
   /// The same for eight octets, the first in the lowest byte. They all exist, as far as they get nodes.
@@ -53,7 +51,7 @@ class alignas(64) RegionEditor {
     NODE* nodes = this->nodes(region, octet);
     for (int i = 0; i < 8; ++i) nodes[i].~NODE();
     region.mask[index(octet)] = 0;
-    pool_->release(*source_, region.octet[index(octet)]);
+    pool_->release(*source_, region, octet);
     made_ -= 8;
   }
 
