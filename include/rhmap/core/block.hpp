@@ -66,7 +66,7 @@ struct alignas(64) Block {
     std::uint8_t* place = refs.data() + 3 * octet;
     for (int i = 0; i < 3; ++i) place[i] = static_cast<std::uint8_t>(ref >> 8 * i);
   }
-  const std::uint8_t* placeOfRef(int octet) const { return refs.data() + 3 * octet; }
+  const std::uint8_t* placeOfRef(int octet) const { return refs.data() + 3 * static_cast<unsigned>(octet); }
 
   bool has(int slot) const { return mask[static_cast<unsigned>(slot) >> 3] >> (slot & 7) & 1; }
 

@@ -67,14 +67,13 @@ class BlockStore {
 
   /// The cell at `key`, or the shallower leaf that contains it; null if unknown.
   [[gnu::always_inline]] NODE* findNode(const OcTreeKey& key) const {
-    if (const Block* region = findRegion(key)) return findNode(*region, cellIndex(key, kRegionLevel));
+    if (const Block* region = findRegion(key))
+      return findNode(*region, static_cast<unsigned>(cellIndex(key, kRegionLevel)));
     return findNodeAbove(key);
   }
   /// The same for a cell of this region.
-  [[gnu::always_inline]] NODE* findNode(const Block& region, int cell) const {
-    // Where most searches go on: it comes while the masks are on their way, not after them.
-    __builtin_prefetch(region.placeOfRef(cell >> 3));
-    const CellPlace place = placeOf(region, static_cast<unsigned>(cell));
+  [[gnu::always_inline]] NODE* findNode(const Block& region, unsigned cell) const {
+    const CellPlace place = likelyPlaceOf(region, cell);
     return place.exists() ? nodes_.nodes(region, static_cast<int>(place.octet)) + place.child : nullptr;
   }
   /// The same where there is no region.
@@ -220,8 +219,8 @@ class BlockStore {
   template <class Construct>
   NODE* createNodes(Block* block, int number, std::uint8_t bits, Construct&& construct) {
     touch(block);
-    NODE* nodes = block->mask[number] == 0 ? nodes_.allocate(nodes_.source(), *block, number)
-                                           : nodes_.nodes(*block, number);
+    NODE* nodes =
+        block->mask[number] == 0 ? nodes_.allocate(nodes_.source(), *block, number) : nodes_.nodes(*block, number);
     for (unsigned rest = bits; rest != 0; rest &= rest - 1)
       construct(static_cast<void*>(nodes + std::countr_zero(rest)), std::countr_zero(rest));
     block->mask[number] = static_cast<std::uint8_t>(block->mask[number] | bits);

@@ -25,7 +25,7 @@ class RegionCursor {
 
   /// The same in the region of the last search, which must exist.
   const NODE* searchHere(std::uint64_t cell) const {
-    return store_.findNode(*region_, static_cast<int>(cell & (kCellsInBlock - 1)));
+    return store_.findNode(*region_, static_cast<unsigned>(cell & (kCellsInBlock - 1)));
   }
 
   /// Around the last cell, the cube of 2^bits cells an edge in which every search finds the same; 0 in a region.
