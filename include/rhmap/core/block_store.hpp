@@ -74,7 +74,10 @@ class BlockStore {
   /// The same for a cell of this region.
   [[gnu::always_inline]] NODE* findNode(const Block& region, unsigned cell) const {
     const CellPlace place = likelyPlaceOf(region, cell);
-    return place.exists() ? nodes_.nodes(region, static_cast<int>(place.octet)) + place.child : nullptr;
+    if (!place.exists()) return nullptr;
+    NODE* node = nodes_.nodes(region, static_cast<int>(place.octet)) + place.child;
+    if (node == nullptr) __builtin_unreachable();  // whoever tests what was found need not test it twice
+    return node;
   }
   /// The same where there is no region.
   [[gnu::noinline]] NODE* findNodeAbove(const OcTreeKey& key) const {

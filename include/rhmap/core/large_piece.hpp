@@ -6,7 +6,7 @@
 
 namespace rhmap {
 
-/// Size and alignment of the pieces of memory that maps are made of: what one large page of most systems holds.
+/// Size and alignment of a large piece of memory: what one large page of most systems holds.
 inline constexpr std::size_t kLargePieceBytes = std::size_t{1} << 21;
 
 /// A piece straight from the system: a heap that is full of small holes, as programs with trees of pointers leave it,

@@ -97,9 +97,7 @@ class OctetPool {
     stock.released = block.ref(octet);
   }
 
-  [[gnu::returns_nonnull]] NODE* nodes(const Block& block, int octet) const {
-    return nodes(block.first_slab, block.ref(octet));
-  }
+  NODE* nodes(const Block& block, int octet) const { return nodes(block.first_slab, block.ref(octet)); }
 
   /// Where a node of this pool sits, by an address inside the node; empty for a depth-16 leaf.
   static NodeRef locate(const void* node) {
