@@ -39,6 +39,21 @@ TEST(LargePageAllocator, ServesVectorsOfAllSizes) {
   }
 }
 
+TEST(PiecePool, HandsOutAlignedPiecesOfZeros) {
+  for (const bool many : {false, true}) {
+    PiecePool pool(many);
+    std::vector<unsigned char*> pieces;
+    for (std::size_t i = 0; i < 5 * kLargePieceBytes / kPieceBytes; ++i) {
+      pieces.push_back(static_cast<unsigned char*>(pool.allocate()));
+      EXPECT_EQ(reinterpret_cast<std::uintptr_t>(pieces.back()) % kPieceBytes, 0);
+      for (std::size_t at = 0; at < kPieceBytes; at += 500) ASSERT_EQ(pieces.back()[at], 0) << i;
+      std::memset(pieces.back(), static_cast<int>(i + 1), kPieceBytes);
+    }
+    for (std::size_t i = 0; i < pieces.size(); ++i)
+      for (const std::size_t at : {std::size_t{0}, kPieceBytes - 1}) ASSERT_EQ(pieces[i][at], i + 1);
+  }
+}
+
 TEST(RecordPool, KeepsRecordsWhenTheirPiecesBecomeLargePages) {
   for (const bool many : {false, true}) {
     PiecePool pieces(many);
