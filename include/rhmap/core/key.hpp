@@ -57,7 +57,7 @@ inline OcTreeKey keyOfWord(std::uint64_t word) {
   const int shift = cellShift(level);
   const std::uint64_t three_bits = 0xffffU & 7U << shift;  // of an axis; at level 0 there is but one
   std::uint64_t all = (keyWord(key) & three_bits * 0x1'0001'0001) >> shift;
-  all = (all | all << 2 | all << 4) & 0x0049'0049'0049;  // spread3 of the three at once
+  all = (all | all << 2 | all << 4) & 0x0049'0049'0049;                         // spread3 of the three at once
   return static_cast<int>(all * (1ULL << 55 | 1ULL << 40 | 1ULL << 25) >> 55);  // their nine bits are the highest
 }
 
