@@ -3,9 +3,9 @@
 
 #include <gtest/gtest.h>
 
-#include <algorithm>
 #include <deque>
 #include <set>
+#include <vector>
 
 namespace rhmap {
 namespace {

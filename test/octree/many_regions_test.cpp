@@ -49,10 +49,10 @@ class ManyRegions : public testing::Test {
     for (int i = 0; i < kRegions; ++i) {
       const int region = static_cast<int>(std::int64_t{i} * 77'773 % kRegions);
       const OcTreeKey a = keyOf(region, below(512)), b = keyOf(region, below(512));
-      ours_.updateNode(a, true, true);
-      theirs_.updateNode(a, true, true);
-      ours_.updateNode(b, false, true);
-      theirs_.updateNode(b, false, true);
+      both([&](auto& t) {
+        t.updateNode(a, true, true);
+        t.updateNode(b, false, true);
+      });
       cells_.insert(cells_.end(), {a, b});
     }
     both([](auto& t) { t.updateInnerOccupancy(); });

@@ -58,7 +58,7 @@ struct alignas(64) Block {
   /// Where octet o is; valid where mask[o] != 0.
   OctetRef ref(int octet) const {
     std::uint32_t word;
-    std::memcpy(&word, placeOfRef(octet), sizeof word);
+    std::memcpy(&word, refs.data() + 3 * static_cast<unsigned>(octet), sizeof word);
     if constexpr (std::endian::native == std::endian::big) word = __builtin_bswap32(word);
     return word & ((OctetRef{1} << kRefBits) - 1);
   }
@@ -66,7 +66,6 @@ struct alignas(64) Block {
     std::uint8_t* place = refs.data() + 3 * octet;
     for (int i = 0; i < 3; ++i) place[i] = static_cast<std::uint8_t>(ref >> 8 * i);
   }
-  const std::uint8_t* placeOfRef(int octet) const { return refs.data() + 3 * static_cast<unsigned>(octet); }
 
   bool has(int slot) const { return mask[static_cast<unsigned>(slot) >> 3] >> (slot & 7) & 1; }
 

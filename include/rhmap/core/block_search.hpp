@@ -26,7 +26,7 @@ struct CellPlace {
 };
 
 /// The place where a search for a cell ends that no other block lies below. Without branches: at which of the three
-/// depths a ray or a cloud meets the map is anybody's guess.
+/// depths is anybody's guess where searches are not for neighbours.
 [[gnu::always_inline]] inline CellPlace placeOf(const Block& block, unsigned cell) {
   static constexpr std::uint8_t kFirstOctet[] = {0, kMiddleOctet, kTopOctet};
   const unsigned cells = block.mask[cell >> 3];

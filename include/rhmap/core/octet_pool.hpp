@@ -76,9 +76,8 @@ class OctetPool {
 
   /// Gives an octet of a block its place: raw memory for eight nodes, which it returns.
   NODE* allocate(Source& source, Block& block, int octet) {
-    const bool leaves = block.level == kRegionLevel && octet < kMiddleOctet;
-    Stocks& stocks = source.districts[districtOf(block)];
-    const OctetRef ref = take(leaves ? stocks.leaves : stocks.inner, block.first_slab, !leaves);
+    const bool leaves = isOfLeaves(block, octet);
+    const OctetRef ref = take(stockOf(source, block, octet), block.first_slab, !leaves);
     block.setRef(octet, ref);
     NODE* nodes = this->nodes(block.first_slab, ref);
     if (leaves) return nodes;
@@ -90,10 +89,8 @@ class OctetPool {
 
   /// Gives the memory back; the nodes must have been destroyed.
   void release(Source& source, const Block& block, int octet) {
-    NODE* nodes = this->nodes(block, octet);
-    Stocks& stocks = source.districts[districtOf(block)];
-    Stock& stock = SlabHeader::around(nodes)->inner ? stocks.inner : stocks.leaves;
-    std::memcpy(static_cast<void*>(nodes), &stock.released, sizeof stock.released);
+    Stock& stock = stockOf(source, block, octet);
+    std::memcpy(static_cast<void*>(nodes(block, octet)), &stock.released, sizeof stock.released);
     stock.released = block.ref(octet);
   }
 
@@ -162,6 +159,11 @@ class OctetPool {
   }
 
   static std::size_t districtOf(const Block& block) { return block.first_slab / kSlabsInDistrict; }
+  static bool isOfLeaves(const Block& block, int octet) { return block.level == kRegionLevel && octet < kMiddleOctet; }
+  static Stock& stockOf(Source& source, const Block& block, int octet) {
+    Stocks& stocks = source.districts[districtOf(block)];
+    return isOfLeaves(block, octet) ? stocks.leaves : stocks.inner;
+  }
 
   // The numbers of a slab's octets go on from those of the slab before; see slabs_.
   NODE* nodes(std::size_t first_slab, OctetRef ref) const {
