@@ -6,76 +6,16 @@
 #include <cstdint>
 #include <limits>
 
+#include "rhmap/octree/ray_steps.hpp"
+
 #undef HWY_TARGET_INCLUDE
 #define HWY_TARGET_INCLUDE "ray_cast.cpp"
 #include <hwy/foreach_target.h>  // compiles this file once for every instruction set
 #include <hwy/highway.h>
 
-#include "ray_step-inl.hpp"
-
 HWY_BEFORE_NAMESPACE();
 namespace rhmap::HWY_NAMESPACE {
 namespace hn = hwy::HWY_NAMESPACE;
-
-// One lane: not for doing several things at once, but because vectors can choose without branches.
-using F = hn::CappedTag<double, 1>;
-using U = hn::RebindToUnsigned<F>;
-
-/// A ray on its way, in registers.
-struct OnTheWay {
-  hn::Vec<F> tx, ty, tz;
-  const hn::Vec<F> dx, dy, dz;
-  hn::Vec<U> mirrored;
-
-  explicit HWY_INLINE OnTheWay(const RayCast& ray)
-      : tx(hn::Set(F(), ray.t_max[0])),
-        ty(hn::Set(F(), ray.t_max[1])),
-        tz(hn::Set(F(), ray.t_max[2])),
-        dx(hn::Set(F(), ray.t_delta[0])),
-        dy(hn::Set(F(), ray.t_delta[1])),
-        dz(hn::Set(F(), ray.t_delta[2])),
-        mirrored(hn::Set(U(), ray.mirrored)) {}
-
-  HWY_INLINE double exitDistance() const { return hn::GetLane(hn::Min(hn::Min(tx, ty), tz)); }
-  HWY_INLINE void step() { mirrored = advance(F(), tx, ty, tz, dx, dy, dz, mirrored); }
-};
-
-void TakeSteps(const RayCast& ray, RaySteps& steps) {
-  OnTheWay now(ray);
-  std::uint64_t before = ray.mirrored;
-  unsigned begins = 0;
-#pragma GCC unroll 8
-  for (std::size_t i = 0; i < RaySteps::kSteps; ++i) {
-    steps.entry = now.exitDistance();
-    now.step();
-    const std::uint64_t at = hn::GetLane(now.mirrored);
-    begins |= unsigned{(at ^ before) >= kCellsInBlock} << i;
-    before = at;
-    steps.cells[i] = at ^ ray.mirror;  // not in the vector: a tenth of castRay slower (GCC 12)
-    steps.t_max[0][i] = hn::GetLane(now.tx);
-    steps.t_max[1][i] = hn::GetLane(now.ty);
-    steps.t_max[2][i] = hn::GetLane(now.tz);
-  }
-  steps.ends = begins >> 1 | 1U << (RaySteps::kSteps - 1);
-}
-
-/// One step after the other, until the ray has left the cells that are the same in the bits `outside`.
-void followUntil(RayCast& ray, std::uint64_t outside, double limit) {
-  OnTheWay now(ray);
-  const std::uint64_t first = ray.mirrored;
-  std::uint64_t before, at = first;
-  do {
-    before = at;
-    ray.entry = now.exitDistance();
-    now.step();
-    at = hn::GetLane(now.mirrored);
-  } while (((at ^ first) & outside) == 0 && ray.entry <= limit);
-  ray.in_space = at > before;  // or else it has begun again at the other end
-  ray.mirrored = ray.in_space ? at : before;
-  ray.t_max[0] = hn::GetLane(now.tx);
-  ray.t_max[1] = hn::GetLane(now.ty);
-  ray.t_max[2] = hn::GetLane(now.tz);
-}
 
 // The three axes side by side, in as many vectors as it takes. A fourth has no steps.
 using Q = hn::CappedTag<double, 4>;
@@ -180,7 +120,8 @@ HWY_INLINE Exit findExit(const Rows& row, const VQ (&left)[kParts]) {
   return exit;
 }
 
-void LeaveCube(RayCast& ray, int bits, double limit) {
+/// leaveCube(), or the first of its steps: true if there are no more.
+bool LeaveCube(RayCast& ray, int bits, double limit) {
   const Q q;
   const QU u;
   const std::uint64_t edge = std::uint64_t{1} << bits;
@@ -221,7 +162,7 @@ void LeaveCube(RayCast& ray, int bits, double limit) {
     ray.mirrored |= hn::GetLane(hn::SumOfLanes(u, wordOf(toWhole(hn::Min(to, last_key)), p)));
     hn::Store(t[p], q, ray.t_max.data() + p * kWidth);
   }
-  if (!at_once) followUntil(ray, cell_word::outsideOfCube(bits), limit);
+  return at_once;
 }
 
 }  // namespace rhmap::HWY_NAMESPACE
@@ -230,24 +171,34 @@ HWY_AFTER_NAMESPACE();
 #if HWY_ONCE
 namespace rhmap {
 
-RayCast::RayCast(const Ray& ray) {
-  for (unsigned i = 0; i < 4; ++i) {
-    t_max[i] = i < 3 ? ray.t_max[i] : std::numeric_limits<double>::max();
-    t_delta[i] = i < 3 ? ray.t_delta[i] : std::numeric_limits<double>::max();
-  }
-  // Without branches: in which of eight directions a ray goes is anybody's guess.
-  for (unsigned i = 0; i < 3; ++i) mirror |= cell_word::kAxis[i] & -std::uint64_t{ray.step[i] < 0};
-  mirrored = cell_word::fromKey(ray.key) ^ mirror;
-}
-
-HWY_EXPORT(TakeSteps);
 HWY_EXPORT(LeaveCube);
 
-void takeSteps(const RayCast& ray, RaySteps& steps) { HWY_DYNAMIC_DISPATCH(TakeSteps)(ray, steps); }
+namespace {
 
-void leaveCube(RayCast& ray, int bits, double limit) { HWY_DYNAMIC_DISPATCH(LeaveCube)(ray, bits, limit); }
+/// One step after the other, until the ray has left the cells that are the same in the bits `outside`.
+void followUntil(RayCast& ray, std::uint64_t outside, double limit) {
+  RaySteps now(ray);
+  const std::uint64_t first = ray.mirrored;
+  std::uint64_t before;
+  double entry;
+  do {
+    before = now.mirrored();
+    entry = now.exitDistance();
+    now.take();
+  } while (((now.mirrored() ^ first) & outside) == 0 && entry <= limit);
+  now.store(ray);
+  ray.entry = entry;
+  ray.in_space = ray.mirrored > before;  // or else it has begun again at the other end
+  if (!ray.in_space) ray.mirrored = before;
+}
 
-void step(RayCast& ray) { leaveCube(ray, kRegionBits, -std::numeric_limits<double>::infinity()); }
+}  // namespace
+
+void leaveCube(RayCast& ray, int bits, double limit) {
+  if (!HWY_DYNAMIC_DISPATCH(LeaveCube)(ray, bits, limit)) followUntil(ray, cell_word::outsideOfCube(bits), limit);
+}
+
+void step(RayCast& ray) { followUntil(ray, 0, -std::numeric_limits<double>::infinity()); }
 
 }  // namespace rhmap
 #endif

@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 #include <random>
@@ -10,6 +11,7 @@
 
 #include "oracle.hpp"
 #include "rhmap/octree/octree.hpp"
+#include "rhmap/octree/ray_steps.hpp"
 #include "targets.hpp"
 
 namespace rhmap {
@@ -28,6 +30,7 @@ std::vector<point3d> directions(std::mt19937& random) {
         all.push_back(d);
         all.push_back(d + point3d(1e-6F, -1e-7F, 1e-5F));
         all.push_back(point3d(d.x() * 1e-30F, d.y(), d.z() * 3));
+        all.push_back(d * 1e-30F);  // too short for a unit vector: its squares are 0
       }
   std::normal_distribution<float> normal;
   for (int i = 0; i < 300; ++i) all.emplace_back(normal(random), normal(random), normal(random));
@@ -83,38 +86,34 @@ struct Reference {
   }
 };
 
-class RayCastOn : public test::OnTarget {};
-
-TEST_P(RayCastOn, TakesTheStepsOfARay) {
-  forEachRay([](const Ray& start, std::mt19937&) {
+template <class LANE>
+void expectTheStepsOfARay() {
+  std::size_t rays = 0;
+  forEachRay([&](const Ray& start, std::mt19937&) {
     Reference expected{start};
     RayCast ray(start);
-    for (int round = 0; round < 6 && !ray.isNearBorder(); ++round) {
-      RaySteps steps;
-      takeSteps(ray, steps);
-      const std::size_t followed = round % 2 == 0 ? RaySteps::kSteps - 1 : static_cast<std::size_t>(round);
-      const Reference before = expected;
-      OcTreeKey last = expected.ray.key;
-      for (std::size_t i = 0; i < RaySteps::kSteps; ++i) {
-        expected.step();
-        ASSERT_TRUE(expected.in_space);
-        ASSERT_EQ(steps.cells[i], cell_word::fromKey(expected.ray.key));
-        for (std::size_t axis = 0; axis < 3; ++axis) ASSERT_EQ(steps.t_max[axis][i], expected.ray.t_max[axis]);
-        const bool moved = blockKey(last, kRegionLevel) != blockKey(expected.ray.key, kRegionLevel);
-        if (i > 0) {
-          ASSERT_EQ(steps.ends >> (i - 1) & 1, moved ? 1U : 0U);
-        }
-        last = expected.ray.key;
-      }
-      ASSERT_EQ(steps.ends >> (RaySteps::kSteps - 1), 1U);
-      ASSERT_EQ(steps.entry, expected.entry);
-      ray.follow(steps, followed);
-      expected = before;
-      for (std::size_t i = 0; i <= followed; ++i) expected.step();
-      ASSERT_EQ(ray.cell(), cell_word::fromKey(expected.ray.key));
+    if (ray.stepsToBorder() == 0) return;
+    ++rays;
+    RaySteps<LANE> now(ray);
+    for (int i = 0; i < std::min(ray.stepsToBorder(), 60); ++i) {
+      ASSERT_EQ(now.exitDistance(), expected.ray.exitDistance());
+      now.take();
+      expected.step();
+      ASSERT_TRUE(expected.in_space);
+      ASSERT_EQ(now.cell(), cell_word::fromKey(expected.ray.key));
     }
+    now.store(ray);
+    ASSERT_EQ(ray.cell(), cell_word::fromKey(expected.ray.key));
+    ASSERT_GE(ray.entry, expected.entry);
+    for (std::size_t axis = 0; axis < 3; ++axis) ASSERT_EQ(ray.t_max[axis], expected.ray.t_max[axis]);
   });
+  EXPECT_GT(rays, 1000U);
 }
+
+TEST(RaySteps, AreThoseOfARay) { expectTheStepsOfARay<Lane>(); }
+TEST(RaySteps, AreThoseOfARayWithoutVectors) { expectTheStepsOfARay<PlainLane>(); }
+
+class RayCastOn : public test::OnTarget {};
 
 TEST_P(RayCastOn, LeavesCubesWhereARayDoes) {
   std::size_t left = 0, stopped = 0, at_border = 0;
@@ -146,7 +145,7 @@ TEST_P(RayCastOn, LeavesCubesWhereARayDoes) {
   EXPECT_GT(at_border, 1000U);
 }
 
-TEST_P(RayCastOn, StepsToTheBorderAndNoFurther) {
+TEST(RayCast, StepsToTheBorderAndNoFurther) {
   forEachRay([](const Ray& start, std::mt19937&) {
     Reference expected{start};
     RayCast ray(start);
@@ -198,7 +197,8 @@ TEST_P(RayCastOn, EndsWhereOctomapsDoes) {
       for (unsigned axis = 0; axis < 3; ++axis) key[axis] = static_cast<key_type>(around[axis] + random() % 40 - 20);
       const point3d origin = ours.keyToCoord(key) + point3d(0.01F, -0.02F, 0.03F);
       // Some ranges that a cell's centre meets, or nearly.
-      for (const double range : {-1.0, 0.01, 0.1, 0.15, 0.2, 1.0, 3.0, 3.03, 0.1 * static_cast<double>(random() % 60)})
+      for (const double range :
+           {-1.0, 0.01, 0.1, 0.15, 0.2, 1.0, 3.0, 3.03, 0.1 * static_cast<double>(random() % 60), kNoLimit})
         for (const bool ignore : {false, true}) {
           point3d end(9, 9, 9), octomaps_end(9, 9, 9);
           const bool hit = ours.castRay(origin, direction, end, ignore, range);

@@ -13,8 +13,8 @@
 namespace rhmap::bench {
 namespace {
 
-constexpr std::size_t kQueries = 500'000;
-constexpr std::size_t kCasts = 10'000;
+constexpr std::size_t kQueries = 2'000'000;
+constexpr std::size_t kCasts = 100'000;
 constexpr std::size_t kUpdates = 100'000;
 
 using Random = std::mt19937_64;

@@ -12,6 +12,7 @@
 #include "rhmap/octree/map_codec.hpp"
 #include "rhmap/octree/occupancy_octree_base.hpp"
 #include "rhmap/octree/ray_cast.hpp"
+#include "rhmap/octree/ray_steps.hpp"
 
 namespace rhmap {
 
@@ -268,47 +269,35 @@ bool OccupancyOcTreeBase<NODE>::castRay(const point3d& origin, const point3d& di
 
   // A cell's centre is no farther from where the ray enters than half a diagonal: up to here the range needs no test.
   const double certainly_within =
-      maxRange > 0.0 ? maxRange - (this->getResolution() + 1e-5 * maxRange) : std::numeric_limits<double>::infinity();
+      maxRange > 0.0 ? (1 - 1e-5) * maxRange - this->getResolution() : std::numeric_limits<double>::infinity();
   const auto isBeyond = [&](const point3d& centre) {
     double squared = 0.0;
     for (unsigned i = 0; i < 3; ++i) squared += double((centre(i) - origin(i)) * (centre(i) - origin(i)));
     return squared > maxRange * maxRange;
   };
-  // What OctoMap asks at each cell: is it too far, does the ray end in it?
-  const auto endsAt = [&](std::uint64_t cell, bool test_range) -> std::optional<bool> {
-    if (test_range && isBeyond(this->keyToCoord(cell_word::toKey(cell)))) return stop(cell, nullptr);
-    if (const NODE* node = cursor.search(cell); endsIn(node)) return stop(cell, node);
-    return std::nullopt;
-  };
-  RaySteps steps;
+  // Borders between cells are no farther from each other, along a ray, than the diagonal of a cell.
+  const double farthest_step = 1.7321 * this->getResolution();
   for (RayCast ray(*start);;) {
-    const bool in_cube = cursor.bits() > kRegionBits && ray.entry <= certainly_within;
-    if (in_cube || ray.isNearBorder()) {
-      if (in_cube) {
-        leaveCube(ray, cursor.bits(), certainly_within);
-      } else {
-        step(ray);
+    const bool in_region = cursor.bits() == 0;
+    const double to_go = (certainly_within - ray.entry) / farthest_step;
+    if (auto steps = static_cast<int>(std::clamp(to_go, 0.0, double(ray.stepsToBorder()))); in_region && steps > 0) {
+      RaySteps now(ray);
+      for (; steps > 0 && cursor.bits() == 0; --steps) {
+        now.take();
+        if (const NODE* node = cursor.search(now.cell()); endsIn(node)) return stop(now.cell(), node);
       }
-      if (!ray.in_space) return stop(ray.cell(), nullptr);
-      if (const auto hit = endsAt(ray.cell(), ray.entry > certainly_within)) return *hit;
+      now.store(ray);
       continue;
     }
-    takeSteps(ray, steps);
-    std::size_t at = 0;
-    if (steps.entry > certainly_within) {
-      for (; at < RaySteps::kSteps; ++at)
-        if (const auto hit = endsAt(steps.cells[at], true)) return *hit;
+    if (!in_region && to_go >= 0) {
+      leaveCube(ray, cursor.bits(), certainly_within);
     } else {
-      for (unsigned ends = steps.ends; ends != 0; ends &= ends - 1, ++at) {  // region by region
-        if (const auto hit = endsAt(steps.cells[at], false)) return *hit;
-        if (cursor.bits() > kRegionBits) break;
-        const auto end = static_cast<std::size_t>(std::countr_zero(ends));
-        if (cursor.bits() > 0) at = end;  // there is none, and its cells are all like this one
-        while (at < end)
-          if (const NODE* node = cursor.searchHere(steps.cells[++at]); endsIn(node)) return stop(steps.cells[at], node);
-      }
+      step(ray);
     }
-    ray.follow(steps, std::min(at, RaySteps::kSteps - 1));
+    if (!ray.in_space) return stop(ray.cell(), nullptr);
+    if (ray.entry > certainly_within && isBeyond(this->keyToCoord(cell_word::toKey(ray.cell()))))
+      return stop(ray.cell(), nullptr);
+    if (const NODE* node = cursor.search(ray.cell()); endsIn(node)) return stop(ray.cell(), node);
   }
 }
 
