@@ -210,8 +210,10 @@ TEST(BlockJournal, KnowsWhichBlocksOfAStoreGetAndLoseNodes) {
 
   for (int level = 0; level <= kRegionLevel; ++level) {
     const Block* block = store.findBlock(key, level);
-    EXPECT_EQ(blockLevel(blockKey(key, level)), level);
-    EXPECT_EQ(blockCorner(blockKey(key, level)), block->corner);
+    EXPECT_EQ(block->key, blockKey(key, level));
+    EXPECT_EQ(block->level(), level);
+    EXPECT_EQ(block->corner(),
+              level == 0 ? OcTreeKey(0, 0, 0) : octomap::computeIndexKey(static_cast<key_type>(18 - 3 * level), key));
   }
   store.clear();
   EXPECT_TRUE(store.takeChanges(observer).all);

@@ -73,9 +73,7 @@ TEST(Block, ASlotsCornerIsTheSmallestKeyThatLeadsToIt) {
       const OcTreeKey key(static_cast<key_type>(random()), static_cast<key_type>(random()),
                           static_cast<key_type>(random()));
       Block block{};
-      block.level = static_cast<std::uint8_t>(level);
-      block.corner =
-          level == 0 ? OcTreeKey(0, 0, 0) : octomap::computeIndexKey(static_cast<key_type>(18 - 3 * level), key);
+      block.key = blockKey(key, level);
       for (int step = level == 0 ? 0 : -1; step <= 1; ++step) {
         const int slot = slotAbove(cellIndex(key, level), step);
         ASSERT_EQ(block.depth(slot), static_cast<unsigned>(3 * level + step));

@@ -153,9 +153,8 @@ TEST(KeySet, VisitsRegionsAsTheyCameAndTheirCellsInMortonOrder) {
   const OcTreeKey corners[] = {{4000, 8, 16}, {0, 65528, 0}, {8, 8, 8}};
   std::vector<OcTreeKey> expected;
   Block region{};
-  region.level = kRegionLevel;
   for (const OcTreeKey& corner : corners) {
-    region.corner = corner;
+    region.key = blockKey(corner, kRegionLevel);
     for (int cell = 0; cell < kCells; cell += 3) expected.push_back(region.cornerOf(cell));
   }
   KeySet set;

@@ -28,7 +28,7 @@ struct Pool {
 
   Block& addBlock(int level = kRegionLevel) {
     Block& block = blocks.emplace_back();
-    block.level = static_cast<std::uint8_t>(level);
+    block.key = blockKey({0, 0, 0}, level);
     octets.enter(block);
     return block;
   }

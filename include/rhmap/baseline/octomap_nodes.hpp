@@ -62,7 +62,7 @@ void forEachIn(const Block& block, int number, const octomap::OcTree& tree, octo
 /// Calls `visit(octet number, node above it)` for all octets of a block that could exist, from above.
 template <class F>
 void forEachOctet(const Block& block, octomap::OcTree& tree, octomap::OcTreeNode* above, F&& visit) {
-  if (block.level == 0) return visit(childOctet(kRootSlot), above);  // the root itself is not in an octet there
+  if (block.level() == 0) return visit(childOctet(kRootSlot), above);  // the root itself is not in an octet there
   visit(kTopOctet, above);
   forEachIn(block, kTopOctet, tree, above, [&](int top, octomap::OcTreeNode* top_node) {
     visit(childOctet(top), top_node);
@@ -75,7 +75,7 @@ void forEachOctet(const Block& block, octomap::OcTree& tree, octomap::OcTreeNode
 /// What is below the block's cells stays.
 template <class NODE>
 void writeBlock(const BlockStore<NODE>& store, const Block& block, octomap::OcTree& tree, octomap::OcTreeNode* above) {
-  if (block.level == 0) above->setLogOdds(store.node(store.root())->getLogOdds());
+  if (block.level() == 0) above->setLogOdds(store.node(store.root())->getLogOdds());
   forEachOctet(block, tree, above,
                [&](int octet, octomap::OcTreeNode* node) { writeOctet(store, block, octet, tree, node); });
 }
@@ -86,11 +86,11 @@ std::size_t writeBlocksBelow(const BlockStore<NODE>& store, const Block& block, 
                              octomap::OcTreeNode* above) {
   writeBlock(store, block, tree, above);
   std::size_t blocks = 1;
-  if (block.level == kRegionLevel) return blocks;
+  if (block.level() == kRegionLevel) return blocks;
   forEachOctet(block, tree, above, [&](int octet, octomap::OcTreeNode* node) {
     if (octet >= kMiddleOctet) return;
     forEachIn(block, octet, tree, node, [&](int cell, octomap::OcTreeNode* cell_node) {
-      const Block* below = store.findBlock(block.cornerOf(cell), block.level + 1);
+      const Block* below = store.findBlock(block.cornerOf(cell), block.level() + 1);
       if (below != nullptr) {
         blocks += writeBlocksBelow(store, *below, tree, cell_node);
       } else {

@@ -47,13 +47,15 @@ inline constexpr int kRefBits = 24;
 
 /// Which nodes exist and where they are kept. Five cache lines; the values live in the OctetPool.
 struct alignas(64) Block {
-  std::array<std::uint8_t, kOctets> mask;          ///< mask[o], bit i: node i of octet o exists
-  std::uint8_t level;                              ///< 0 (root) ... 5 (region)
-  OcTreeKey corner;                                ///< smallest key inside
+  std::uint64_t key;                               ///< blockKey()
   Block* parent;                                   ///< holds the cell above this block; null at level 0
   std::uint32_t stamp;                             ///< when it was last noted as changed, see BlockJournal
   std::uint32_t first_slab;                        ///< of its district of the OctetPool
+  std::array<std::uint8_t, kOctets> mask;          ///< mask[o], bit i: node i of octet o exists
   std::array<std::uint8_t, 3 * kOctets + 1> refs;  ///< see ref(); it reads four bytes
+
+  int level() const { return blockLevel(key); }          ///< 0 (root) ... 5 (region)
+  OcTreeKey corner() const { return blockCorner(key); }  ///< smallest key inside
 
   /// Where octet o is; valid where mask[o] != 0.
   OctetRef ref(int octet) const {
@@ -69,11 +71,11 @@ struct alignas(64) Block {
 
   bool has(int slot) const { return mask[static_cast<unsigned>(slot) >> 3] >> (slot & 7) & 1; }
 
-  unsigned depth(int slot) const { return static_cast<unsigned>(3 * level + depthStep(slot)); }
+  unsigned depth(int slot) const { return static_cast<unsigned>(3 * level() + depthStep(slot)); }
 
   /// Smallest key of the node in a slot.
   OcTreeKey cornerOf(int slot) const {
-    return keyOfWord(keyWord(corner) + (cellOffset(static_cast<unsigned>(firstCell(slot))) << cellShift(level)));
+    return keyOfWord(key + (cellOffset(static_cast<unsigned>(firstCell(slot))) << cellShift(level())));
   }
 };
 static_assert(sizeof(Block) == 320);
@@ -99,12 +101,6 @@ constexpr std::uint64_t nonzeroBytes(std::uint64_t bytes) {
   return (((bytes & kLow) + kLow) | bytes) & ~kLow;
 }
 
-/// Level of the block with this blockKey().
-inline int blockLevel(std::uint64_t block_key) { return static_cast<int>(block_key >> 48); }
-
-/// Smallest key in the block with this blockKey().
-inline OcTreeKey blockCorner(std::uint64_t block_key) { return keyOfWord(block_key); }
-
 /// A node's place. Empty (block null) where there is none.
 struct NodeRef {
   Block* block = nullptr;
@@ -113,11 +109,10 @@ struct NodeRef {
   explicit operator bool() const { return block != nullptr; }
   bool operator==(const NodeRef&) const = default;
   /// At depth 16, as most nodes are.
-  bool isCell() const { return slot < kCells && block->level == kRegionLevel; }
+  bool isCell() const { return slot < kCells && block->level() == kRegionLevel; }
   unsigned depth() const { return block->depth(slot); }
   OcTreeKey corner() const {
-    return isCell() ? keyOfWord(keyWord(block->corner) | cellOffset(static_cast<unsigned>(slot)))
-                    : block->cornerOf(slot);
+    return isCell() ? keyOfWord(block->key | cellOffset(static_cast<unsigned>(slot))) : block->cornerOf(slot);
   }
   int sibling() const { return slot & 7; }
 };

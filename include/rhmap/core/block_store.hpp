@@ -129,16 +129,16 @@ class BlockStore {
 
   /// The parent; empty for the root.
   static NodeRef parent(NodeRef r) {
-    if (r.slot >= kTopSlot) return {r.block->parent, cellIndex(r.block->corner, r.block->level - 1)};
-    if (r.slot == kRootSlot && r.block->level == 0) return {};
+    if (r.slot >= kTopSlot) return {r.block->parent, cellIndex(r.block->corner(), r.block->level() - 1)};
+    if (r.slot == kRootSlot && r.block->level() == 0) return {};
     return {r.block, parentSlot(r.slot >> 3)};
   }
 
   /// The octet below a node as (block, number); empty if it has no children. The number stands in `slot`.
   NodeRef childOctetOf(NodeRef r) const {
     if (r.slot >= kCells) return {r.block->mask[childOctet(r.slot)] != 0 ? r.block : nullptr, childOctet(r.slot)};
-    if (r.block->level == kRegionLevel) return {};
-    return {findBlock(r.corner(), r.block->level + 1), kTopOctet};
+    if (r.block->level() == kRegionLevel) return {};
+    return {findBlock(r.corner(), r.block->level() + 1), kTopOctet};
   }
 
   bool hasChildren(NodeRef r) const { return static_cast<bool>(childOctetOf(r)); }
@@ -161,9 +161,9 @@ class BlockStore {
         if (block->mask[childOctet(octet.slot * 8 + i)] != 0) return true;
       return false;
     }
-    if (block->level == kRegionLevel) return false;
+    if (block->level() == kRegionLevel) return false;
     for (int i = 0; i < 8; ++i)
-      if (findBlock(block->cornerOf(octet.slot * 8 + i), block->level + 1) != nullptr) return true;
+      if (findBlock(block->cornerOf(octet.slot * 8 + i), block->level() + 1) != nullptr) return true;
     return false;
   }
 
@@ -208,7 +208,7 @@ class BlockStore {
   /// Makes child `i`, which must not exist, with the node type's default value.
   NodeRef createChild(NodeRef r, int i) {
     if (r.slot >= kCells) return create(r.block, childOctet(r.slot) * 8 + i);
-    const int level = r.block->level + 1;
+    const int level = r.block->level() + 1;
     Block* below = findBlock(r.corner(), level);
     if (below == nullptr) below = createBlock(r.corner(), level, r.block);
     return create(below, kTopSlot + i);
@@ -235,14 +235,14 @@ class BlockStore {
   /// Makes children `bits` of a node that has none. The octet, as (block, number).
   NodeRef createChildren(NodeRef r, std::uint8_t bits) {
     const bool below = r.slot < kCells;
-    Block* block = below ? createBlock(r.corner(), r.block->level + 1, r.block) : r.block;
+    Block* block = below ? createBlock(r.corner(), r.block->level() + 1, r.block) : r.block;
     const int number = below ? kTopOctet : childOctet(r.slot);
     createNodes(block, number, bits);
     return {block, number};
   }
 
   /// Makes the block below a childless cell of an upper block; the caller makes nodes in it at once.
-  Block* createBlockBelow(NodeRef cell) { return createBlock(cell.corner(), cell.block->level + 1, cell.block); }
+  Block* createBlockBelow(NodeRef cell) { return createBlock(cell.corner(), cell.block->level() + 1, cell.block); }
 
   /// Editors for as many threads, which will work on no more than `regions` regions.
   std::vector<RegionEditor<NODE>> editors(std::size_t threads, std::size_t regions) {
@@ -273,7 +273,7 @@ class BlockStore {
     nodes_.release(nodes_.source(), *block, number);
     const bool was_last = number == kTopOctet || (block == root_ && number == kRootSlot >> 3);
     if (!was_last) return;
-    index_.erase(blockKey(block->corner, block->level));
+    index_.erase(block->key);
     nodes_.leave(*block);
     blocks_.release(block);
     if (block == trunk_.region) trunk_.region = nullptr;
@@ -320,7 +320,7 @@ class BlockStore {
   /// The same nodes, with equal values.
   bool operator==(const BlockStore& other) const {
     return size_ == other.size_ && index_.all([&](const Block& a) {
-      const Block* b = other.findBlock(blockKey(a.corner, a.level));
+      const Block* b = other.findBlock(a.key);
       if (b == nullptr || a.mask != b->mask) return false;
       for (int o = 0; o < kOctets; ++o)
         if (a.mask[o] != 0 && !equal(octet(&a, o), other.octet(b, o).nodes)) return false;
@@ -332,8 +332,7 @@ class BlockStore {
 
   /// To be called where values of existing nodes change; making and removing nodes calls it by itself.
   void touch(Block* block) {
-    if (!journal_.isNoted(block->stamp))
-      journal_.note(blockKey(block->corner, block->level), block->stamp, index_.size());
+    if (!journal_.isNoted(block->stamp)) journal_.note(block->key, block->stamp, index_.size());
   }
   /// To be called where values change in very many blocks.
   void touchAll() { journal_.noteAll(); }
@@ -382,26 +381,25 @@ class BlockStore {
     auto* block = static_cast<Block*>(blocks_.allocate());
     block->mask.fill(0);
     block->refs.fill(0);  // who asks for the memory of octets need not know which of them exist
-    block->level = static_cast<std::uint8_t>(level);
-    block->corner = corner;
+    block->key = blockKey(corner, level);
     block->stamp = 0;
     block->parent = parent;
     nodes_.enter(*block);
-    index_.insert(blockKey(corner, level), block);
+    index_.insert(block->key, block);
     return block;
   }
 
   void copyBlock(const BlockStore& other, const Block& from, Block* parent) {
-    Block* to = createBlock(from.corner, from.level, parent);
+    Block* to = createBlock(from.corner(), from.level(), parent);
     for (int o = 0; o < kOctets; ++o) {
       if (from.mask[o] == 0) continue;
       const Octet<NODE> source = other.octet(&from, o);
       createNodes(to, o, source.mask, [&](void* place, int i) { new (place) NODE(source.nodes[i]); });
     }
-    if (from.level == kRegionLevel) return;
+    if (from.level() == kRegionLevel) return;
     for (int cell = 0; cell < kCells; ++cell)
       if (from.has(cell))
-        if (const Block* below = other.findBlock(from.cornerOf(cell), from.level + 1)) copyBlock(other, *below, to);
+        if (const Block* below = other.findBlock(from.cornerOf(cell), from.level() + 1)) copyBlock(other, *below, to);
   }
 
   BlockIndex<Block> index_;

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <array>
 #include <cstddef>  // OcTreeKey.h uses this and <vector> without including them
 #include <cstdint>
 #include <vector>
@@ -61,17 +62,29 @@ inline OcTreeKey keyOfWord(std::uint64_t word) {
   return static_cast<int>(all * (1ULL << 55 | 1ULL << 40 | 1ULL << 25) >> 55);  // their nine bits are the highest
 }
 
+namespace detail {
+inline constexpr auto kCellOffsets = [] {
+  std::array<std::uint64_t, kCellsInBlock> all{};
+  for (unsigned cell = 0; cell < kCellsInBlock; ++cell)
+    for (unsigned axis = 0; axis < 3; ++axis) all[cell] |= std::uint64_t{gather3(cell >> axis)} << 16 * axis;
+  return all;
+}();
+}  // namespace detail
+
 /// Inverse of cellIndex() in a region: the cell's place from the region's smallest key, as keyWord().
-[[gnu::always_inline]] inline std::uint64_t cellOffset(unsigned cell) {
-  const std::uint64_t axes = cell * 0x4000'8001ULL & 0x0049'0049'0049;  // gather3 of the three at once
-  return (axes | axes >> 2 | axes >> 4) & 0x0007'0007'0007;
-}
+[[gnu::always_inline]] inline std::uint64_t cellOffset(unsigned cell) { return detail::kCellOffsets[cell]; }
 
 /// Names a block in the whole tree: its smallest key as keyWord(), above that the level.
 [[gnu::always_inline]] inline std::uint64_t blockKey(const OcTreeKey& key, int level) {
   const std::uint64_t kept = 0xffffU & ~0U << (cellShift(level) + 3);
   return (keyWord(key) & kept * 0x1'0001'0001) | static_cast<std::uint64_t>(level) << 48;
 }
+
+/// Level of the block with this blockKey().
+inline int blockLevel(std::uint64_t block_key) { return static_cast<int>(block_key >> 48); }
+
+/// Smallest key in the block with this blockKey().
+inline OcTreeKey blockCorner(std::uint64_t block_key) { return keyOfWord(block_key); }
 
 /// OctoMap's name for a node: the key of its centre. Leaves at depth 16 are named by themselves, larger nodes by the
 /// first cell above their middle.

@@ -18,7 +18,7 @@ class LeafExtremes {
   template <class NODE>
   explicit LeafExtremes(const BlockStore<NODE>& store) {
     store.forEachBlock([&](const Block& block) {
-      if (block.level == kRegionLevel) {
+      if (block.level() == kRegionLevel) {
         if (!couldMove(block)) return;
         LeafWalk<> walk(block);
         while (walk.findNext()) add(block, walk.take());
@@ -43,8 +43,8 @@ class LeafExtremes {
   bool couldMove(const Block& region) const {
     for (unsigned up = 0; up < 3; ++up)
       for (unsigned i = 0; i < 3; ++i)
-        if (region.corner[i] < of_[kTreeDepth - up].min[i] ||
-            region.corner[i] + 8 - (1 << up) > of_[kTreeDepth - up].max[i])
+        if (region.corner()[i] < of_[kTreeDepth - up].min[i] ||
+            region.corner()[i] + 8 - (1 << up) > of_[kTreeDepth - up].max[i])
           return true;
     return false;
   }

@@ -91,9 +91,12 @@ class LeafWalk {
   LeafWalk() = default;
   explicit LeafWalk(const Block& region, const Wanted& wanted = {}) : region_(&region), octant_(-1), wanted_(wanted) {}
 
+  /// True if the next leaf is among the same 64 cells.
+  bool hasMore() const { return rest_ != 0; }
+
   /// Goes on to where the next leaf is; false after the last.
   bool findNext() {
-    if (rest_ != 0) [[likely]]
+    if (hasMore()) [[likely]]
       return true;
     while (octant_ < 7) {
       ++octant_;
@@ -109,7 +112,7 @@ class LeafWalk {
     return false;
   }
 
-  /// Takes the leaf that findNext() has found.
+  /// Takes the next leaf, if hasMore() or findNext() has found it.
   int take() {
     const int bit = std::countr_zero(rest_);
     const bool is_larger = larger_ >> bit & 1;

@@ -159,7 +159,9 @@ class OctetPool {
   }
 
   static std::size_t districtOf(const Block& block) { return block.first_slab / kSlabsInDistrict; }
-  static bool isOfLeaves(const Block& block, int octet) { return block.level == kRegionLevel && octet < kMiddleOctet; }
+  static bool isOfLeaves(const Block& block, int octet) {
+    return block.level() == kRegionLevel && octet < kMiddleOctet;
+  }
   static Stock& stockOf(Source& source, const Block& block, int octet) {
     Stocks& stocks = source.districts[districtOf(block)];
     return isOfLeaves(block, octet) ? stocks.leaves : stocks.inner;

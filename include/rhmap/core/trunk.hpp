@@ -46,7 +46,7 @@ struct Trunk {
   /// `region` contains this key.
   bool leadsTo(const OcTreeKey& key) const {
     if (region == nullptr) return false;
-    const auto differs = [&](unsigned i) { return unsigned{region->corner[i]} ^ key[i]; };
+    const auto differs = [&](unsigned i) { return unsigned{region->corner()[i]} ^ key[i]; };
     return (differs(0) | differs(1) | differs(2)) < 8;
   }
 

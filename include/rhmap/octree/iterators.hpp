@@ -44,15 +44,15 @@ class OcTreeIteratorBase {
   NodeType& operator*() { return *node_; }
 
   /// Centre of the node [m].
-  point3d getCoordinate() const {
+  [[gnu::always_inline]] point3d getCoordinate() const {
     const KeySpace& keys = tree_->keySpace();
-    return at_.isCell() ? keys.keyToCoord(at_.corner()) : keys.keyToCoord(getKey(), getDepth());
+    return at_.isCell() ? keys.keyToCoord(at_.corner()) : centreOf(at_, keys);
   }
   double getX() const { return tree_->keySpace().keyToCoord(getKey()[0], getDepth()); }
   double getY() const { return tree_->keySpace().keyToCoord(getKey()[1], getDepth()); }
   double getZ() const { return tree_->keySpace().keyToCoord(getKey()[2], getDepth()); }
   /// Edge length of the node [m].
-  double getSize() const {
+  [[gnu::always_inline]] double getSize() const {
     const KeySpace& keys = tree_->keySpace();
     return at_.isCell() ? keys.resolution() : keys.nodeSize(getDepth());
   }
@@ -73,7 +73,7 @@ class OcTreeIteratorBase {
     if (getDepth() >= max_depth_) return false;
     const NodeRef octet = tree_->store().childOctetOf(at_);
     if (!octet) return false;
-    if (octet.slot == kTopOctet && octet.block->level == kRegionLevel) prefetchRegionsAfter(tree_->store(), at_);
+    if (octet.slot == kTopOctet && octet.block->level() == kRegionLevel) prefetchRegionsAfter(tree_->store(), at_);
     return takeFirst(octet, octet.block->mask[octet.slot], accept);
   }
 
@@ -94,7 +94,7 @@ class OcTreeIteratorBase {
   /// is none.
   template <class WantedOf>
   bool enterRegion(WantedOf&& wantedOf) {
-    if (at_.block->level != kRegionLevel - 1 || at_.slot >= kCells || max_depth_ != kTreeDepth) return false;
+    if (at_.block->level() != kRegionLevel - 1 || at_.slot >= kCells || max_depth_ != kTreeDepth) return false;
     const NodeRef above = at_, octet = tree_->store().childOctetOf(at_);
     if (!octet) return false;
     prefetchRegionsAfter(tree_->store(), at_);
@@ -105,12 +105,16 @@ class OcTreeIteratorBase {
     return false;
   }
 
-  /// To the next leaf of the region that was entered. If there is none any more: false, and passBy() goes on behind it.
-  bool nextInRegion() {
-    if (!walk_.findNext()) return false;
+  /// To the next leaf of the 64 cells that the walk is in; false if there is none any more.
+  bool nextInOctant() {
+    if (!walk_.hasMore()) return false;
     moveTo({at_.block, walk_.take()});
+    if (node_ == nullptr) __builtin_unreachable();  // who compares with the end need not do it here
     return true;
   }
+
+  /// To the next leaf of the region that was entered. If there is none any more: false, and passBy() goes on behind it.
+  bool nextInRegion() { return walk_.findNext() && nextInOctant(); }
 
   void moveTo(NodeRef node) {
     at_ = node;
@@ -124,6 +128,11 @@ class OcTreeIteratorBase {
   unsigned max_depth_ = 0;
 
  private:
+  // Of the few that are no cells: out of line, and without the iterator's address (see OcTreeLeafIterator).
+  [[gnu::noinline]] static point3d centreOf(NodeRef at, const KeySpace& keys) {
+    return keys.keyToCoord(centreKey(at.corner(), at.depth()), at.depth());
+  }
+
   template <class Accept>
   bool takeFirst(NodeRef octet, unsigned mask, Accept&& accept) {
     for (; mask != 0; mask &= mask - 1) {
@@ -166,12 +175,11 @@ class OcTreeLeafIterator : public OcTreeIteratorBase<TREE> {
 
  public:
   OcTreeLeafIterator() = default;
-  explicit OcTreeLeafIterator(const TREE* tree, unsigned max_depth = 0) : Base(tree, max_depth) { descend(); }
+  explicit OcTreeLeafIterator(const TREE* tree, unsigned max_depth = 0) { *this = first(tree, max_depth); }
 
-  OcTreeLeafIterator& operator++() {
-    if (this->nextInRegion() || this->tree_ == nullptr) return *this;
-    this->passBy(Base::everything);
-    descend();
+  [[gnu::always_inline]] OcTreeLeafIterator& operator++() {
+    if (!this->nextInOctant()) [[unlikely]]
+      *this = afterOctant(*this);
     return *this;
   }
   OcTreeLeafIterator operator++(int) {
@@ -181,6 +189,20 @@ class OcTreeLeafIterator : public OcTreeIteratorBase<TREE> {
   }
 
  private:
+  // Copies come and go here, so that nobody has the address of the one in a loop, which then can stay in registers.
+  [[gnu::noinline]] static OcTreeLeafIterator first(const TREE* tree, unsigned max_depth) {
+    OcTreeLeafIterator it;
+    static_cast<Base&>(it) = Base(tree, max_depth);
+    it.descend();
+    return it;
+  }
+  [[gnu::noinline]] static OcTreeLeafIterator afterOctant(OcTreeLeafIterator it) {
+    if (it.nextInRegion() || it.tree_ == nullptr) return it;
+    it.passBy(Base::everything);
+    it.descend();
+    return it;
+  }
+
   void descend() {
     if (this->tree_ == nullptr) return;
     while (!this->enterRegion([](const Block&) { return AllLeaves(); }) && this->enter(Base::everything)) {
@@ -235,7 +257,7 @@ class OcTreeLeafBbxIterator : public OcTreeIteratorBase<TREE, LeavesInBox> {
 
   /// To the next leaf from here on: an inner node without an accepted child is passed by.
   void descend() {
-    const auto inBox = [this](const Block& region) { return LeavesInBox(region.corner, min_, max_); };
+    const auto inBox = [this](const Block& region) { return LeavesInBox(region.corner(), min_, max_); };
     while (this->tree_ != nullptr && !this->enterRegion(inBox) && !this->atLeaf())
       if (!this->enter(overlap())) this->passBy(overlap());
   }

@@ -26,7 +26,7 @@ void forEachBit(unsigned mask, F&& visit) {
 inline std::uint8_t maskOf(const Block& block, int octet) { return block.mask[static_cast<std::size_t>(octet)]; }
 
 /// True if the children of a node are the top nodes of a region.
-inline bool isAboveRegion(NodeRef at) { return at.block->level == kRegionLevel - 1 && at.slot < kCells; }
+inline bool isAboveRegion(NodeRef at) { return at.block->level() == kRegionLevel - 1 && at.slot < kCells; }
 
 [[noreturn]] inline void throwTooDeep() { throw std::runtime_error("a node at depth 16 claims to have children"); }
 

@@ -138,7 +138,7 @@ NodeRef summariseAbove(BlockStore<NODE>& store, NodeRef child, bool clustered = 
       if (pruning) pruned = parent;
     } else {
       if constexpr (kOctomapsInnerValue<NODE> && sizeof(NODE) == sizeof(float)) {
-        if (clustered && child.slot >= kTopSlot && child.block->level == kRegionLevel &&
+        if (clustered && child.slot >= kTopSlot && child.block->level() == kRegionLevel &&
             store.isChangedAgain(child.block)) {
           recomputeTrunk(store, child.block);
           return pruned;
@@ -157,7 +157,7 @@ NodeRef childTowards(const BlockStore<NODE>& store, NodeRef at, const OcTreeKey&
   const NodeRef o = store.childOctetOf(at);
   if (!o) return {};
   const int step = o.slot < kMiddleOctet ? 1 : o.slot < kTopOctet ? 0 : -1;
-  const int slot = slotAbove(cellIndex(key, o.block->level), step);
+  const int slot = slotAbove(cellIndex(key, o.block->level()), step);
   return o.block->has(slot) ? NodeRef{o.block, slot} : NodeRef{};
 }
 
@@ -222,7 +222,7 @@ template <class NODE>
 std::vector<Block*> blocksOfLevel(const BlockStore<NODE>& store, int level) {
   std::vector<Block*> blocks;
   store.forEachBlock([&](Block& block) {
-    if (block.level == level) blocks.push_back(&block);
+    if (block.level() == level) blocks.push_back(&block);
   });
   return blocks;
 }

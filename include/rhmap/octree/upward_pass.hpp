@@ -23,7 +23,7 @@ class UpwardPass {
   void add(NodeRef cell) {
     if (cell.block != last_) {
       last_ = cell.block;
-      last_cells_ = &levels_[cell.block->level][cell.block];
+      last_cells_ = &levels_[cell.block->level()][cell.block];
     }
     (*last_cells_)[static_cast<std::size_t>(cell.slot) >> 6] |= std::uint64_t{1} << (cell.slot & 63);
   }
@@ -45,10 +45,10 @@ class UpwardPass {
       for (int i = 0; i < 8; ++i)
         if ((word >> (8 * i) & 0xff) != 0)
           structure::summarise(store_, NodeRef{block, kMiddleSlot + 8 * top + i}, NodeRef{block, 64 * top + 8 * i});
-      if (block->level != 0)
+      if (block->level() != 0)
         structure::summarise(store_, NodeRef{block, kTopSlot + top}, NodeRef{block, kMiddleSlot + 8 * top});
     }
-    if (block->level == 0) return;  // its one middle node is the root
+    if (block->level() == 0) return;  // its one middle node is the root
     const NodeRef above = store_.parent({block, kTopSlot});
     structure::summarise(store_, above, NodeRef{block, kTopSlot});
     add(above);
