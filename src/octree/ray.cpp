@@ -4,25 +4,24 @@
 #include <cmath>
 #include <limits>
 
+#include "rhmap/octree/ray_cast.hpp"
+
 namespace rhmap {
 namespace {
 
-/// Step directions and border distances from a point in cell `ray.key`. `half_step` turns half a cell into the type
-/// that OctoMap keeps it in: float in computeRayKeys, double in castRay.
+/// Step direction of a ray along an axis, and its border distances as in Ray, from a coordinate in a cell with this
+/// key. HALF is the type that OctoMap keeps half a cell in: float in computeRayKeys, double in castRay.
 template <class HALF>
-void startAxes(const KeySpace& keys, const point3d& origin, const point3d& direction, Ray& ray) {
-  for (unsigned i = 0; i < 3; ++i) {
-    const float d = direction(i);
-    ray.step[i] = int{d > 0.0F} - int{d < 0.0F};
-    if (ray.step[i] == 0) {
-      ray.t_max[i] = ray.t_delta[i] = std::numeric_limits<double>::max();
-      continue;
-    }
-    const double border =
-        keys.keyToCoord(ray.key[i]) + double(static_cast<HALF>(double(ray.step[i]) * keys.resolution() * 0.5));
-    ray.t_max[i] = (border - double(origin(i))) / double(d);
-    ray.t_delta[i] = keys.resolution() / double(std::fabs(d));
+int startAxis(const KeySpace& keys, key_type key, float origin, float direction, double& t_max, double& t_delta) {
+  const int step = int{direction > 0.0F} - int{direction < 0.0F};
+  if (step == 0) {
+    t_max = t_delta = std::numeric_limits<double>::max();
+    return 0;
   }
+  const double border = keys.keyToCoord(key) + double(static_cast<HALF>(double(step) * keys.resolution() * 0.5));
+  t_max = (border - double(origin)) / double(direction);
+  t_delta = keys.resolution() / double(std::fabs(direction));
+  return step;
 }
 
 }  // namespace
@@ -34,17 +33,25 @@ RayStart startSegment(const KeySpace& keys, const point3d& origin, const point3d
   const auto length = static_cast<float>(direction.norm());
   direction /= length;
   ray.length = double(length);
-  startAxes<float>(keys, origin, direction, ray);
+  for (unsigned i = 0; i < 3; ++i)
+    ray.step[i] = startAxis<float>(keys, ray.key[i], origin(i), direction(i), ray.t_max[i], ray.t_delta[i]);
   return RayStart::kRay;
 }
 
-std::optional<Ray> startCast(const KeySpace& keys, const point3d& origin, const OcTreeKey& key,
-                             const point3d& direction) {
-  Ray ray;
-  ray.key = key;
-  startAxes<double>(keys, origin, direction, ray);
-  if (ray.step[0] == 0 && ray.step[1] == 0 && ray.step[2] == 0) return std::nullopt;
-  return ray;
+bool startCast(const KeySpace& keys, const point3d& origin, const OcTreeKey& key, const point3d& direction,
+               RayCast& ray) {
+  bool moves = false;
+  ray.mirror = 0;
+  for (unsigned i = 0; i < 3; ++i) {
+    const int step = startAxis<double>(keys, key[i], origin(i), direction(i), ray.t_max[i], ray.t_delta[i]);
+    moves = moves || step != 0;
+    // Without a branch: in which of eight directions a ray goes is anybody's guess.
+    ray.mirror |= cell_word::kAxis[i] & -std::uint64_t{step < 0};
+  }
+  ray.mirrored = cell_word::fromKey(key) ^ ray.mirror;
+  ray.entry = 0;
+  ray.in_space = true;
+  return moves;
 }
 
 point3d unitVector(const point3d& v) { return v.normalized(); }

@@ -66,7 +66,7 @@ HWY_INLINE VU wordOf(VU key) {
   return hn::Or(hn::ShiftLeft<kLow>(cell), hn::ShiftLeft<kHigh>(hn::ShiftRight<3>(key)));
 }
 
-/// The first border and the distance between borders along an axis: startAxes() of ray.cpp.
+/// The first border and the distance between borders along an axis: startAxis() of ray.cpp.
 struct Axis {
   VF t_max, t_delta;
   MF down;

@@ -7,7 +7,6 @@
 #include <hwy/highway.h>
 
 #include "compress-inl.hpp"
-#include "ray_step-inl.hpp"
 
 HWY_BEFORE_NAMESPACE();
 namespace rhmap::HWY_NAMESPACE {
@@ -73,10 +72,30 @@ HWY_INLINE void put(Lanes& l, std::size_t lane, const RayBatch& rays, std::size_
   l.busy = hn::Or(l.busy, here);
 }
 
+/// Ray::advance(Ray::nextAxis()) in every lane, without branches. Returns the next cells.
+HWY_INLINE VU advance(Lanes& l) {
+  const U u;
+  const MF x_before_y = hn::Lt(l.tx, l.ty);
+  const MF z = hn::Le(l.tz, hn::Min(l.tx, l.ty));
+  // All sums and the choice between x and y are there before it is known whether it is z: a ray waits for its last
+  // step.
+  const VF tx_next = hn::Add(l.tx, l.dx), ty_next = hn::Add(l.ty, l.dy), tz_next = hn::Add(l.tz, l.dz);
+  l.tx = hn::IfThenElse(z, l.tx, hn::IfThenElse(x_before_y, tx_next, l.tx));
+  l.ty = hn::IfThenElse(z, l.ty, hn::IfThenElse(x_before_y, l.ty, ty_next));
+  l.tz = hn::IfThenElse(z, tz_next, l.tz);
+
+  const VU others =  // the bits of the axes that stay
+      hn::IfThenElse(hn::RebindMask(u, z), hn::Set(u, ~cell_word::kAxis[2]),
+                     hn::IfThenElse(hn::RebindMask(u, x_before_y), hn::Set(u, ~cell_word::kAxis[0]),
+                                    hn::Set(u, ~cell_word::kAxis[1])));
+  const VU up = hn::Add(hn::Or(l.cell, others), hn::Set(u, 1));  // the carry runs through the others' bits
+  return hn::Or(hn::And(others, l.cell), hn::AndNot(others, up));
+}
+
 /// One step of every lane, forEachRayKey's arithmetic. Returns the lanes whose ray has ended.
 HWY_INLINE MU stepAll(Lanes& l, Marks& marks, std::size_t& size) {
   const U u;
-  const VU next = advance(F(), l.tx, l.ty, l.tz, l.dx, l.dy, l.dz, l.cell);
+  const VU next = advance(l);
   const VF exit = hn::Min(hn::Min(l.tx, l.ty), l.tz);
   const MU done = hn::And(hn::Or(hn::Eq(next, l.end), hn::RebindMask(u, hn::Gt(exit, l.length))), l.busy);
   const MU moved = hn::Ne(hn::And(hn::Xor(next, l.cell), hn::Set(u, ~std::uint64_t{63})), hn::Zero(u));

@@ -6,7 +6,6 @@
 #include <algorithm>
 #include <bit>
 #include <limits>
-#include <optional>
 
 #include "rhmap/core/region_cursor.hpp"
 #include "rhmap/octree/map_codec.hpp"
@@ -264,8 +263,8 @@ bool OccupancyOcTreeBase<NODE>::castRay(const point3d& origin, const point3d& di
     return hit != nullptr;
   };
   if (const NODE* node = cursor.search(key); endsIn(node)) return stop(cell_word::fromKey(key), node);
-  const std::optional<Ray> start = startCast(this->keys_, origin, key, unitVector(direction));
-  if (!start) return false;
+  RayCast ray;
+  if (!startCast(this->keys_, origin, key, unitVector(direction), ray)) return false;
 
   // A cell's centre is no farther from where the ray enters than half a diagonal: up to here the range needs no test.
   const double certainly_within =
@@ -277,7 +276,7 @@ bool OccupancyOcTreeBase<NODE>::castRay(const point3d& origin, const point3d& di
   };
   // Borders between cells are no farther from each other, along a ray, than the diagonal of a cell.
   const double farthest_step = 1.7321 * this->getResolution();
-  for (RayCast ray(*start);;) {
+  while (true) {
     const bool in_region = cursor.bits() == 0;
     const double to_go = (certainly_within - ray.entry) / farthest_step;
     if (auto steps = static_cast<int>(std::clamp(to_go, 0.0, double(ray.stepsToBorder()))); in_region && steps > 0) {

@@ -4,7 +4,6 @@
 #include <octomap/octomap_types.h>
 
 #include <algorithm>
-#include <optional>
 
 #include "rhmap/octree/key_space.hpp"
 
@@ -55,11 +54,6 @@ enum class RayStart { kOutside, kSameCell, kRay };
 
 /// Sets up OctoMap's computeRayKeys. `ray` is valid only for kRay.
 RayStart startSegment(const KeySpace& keys, const point3d& origin, const point3d& end, RaySegment& ray);
-
-/// Sets up OctoMap's castRay from the centre-less `origin`, which lies in cell `key`, along a unit vector. Empty if the
-/// direction is (0, 0, 0).
-std::optional<Ray> startCast(const KeySpace& keys, const point3d& origin, const OcTreeKey& key,
-                             const point3d& direction);
 
 /// direction / |direction| and |b - a|, as OctoMap computes them (out of line, so that a consumer's -mfma cannot fuse
 /// them).

@@ -14,20 +14,14 @@ namespace rhmap {
 
 /// A ray that is followed piece by piece.
 struct RayCast {
-  explicit RayCast(const Ray& ray) {
-    constexpr double kNever = std::numeric_limits<double>::max();
-    t_max = {ray.t_max[0], ray.t_max[1], ray.t_max[2], kNever};
-    t_delta = {ray.t_delta[0], ray.t_delta[1], ray.t_delta[2], kNever};
-    // Without branches: in which of eight directions a ray goes is anybody's guess.
-    for (unsigned i = 0; i < 3; ++i) mirror |= cell_word::kAxis[i] & -std::uint64_t{ray.step[i] < 0};
-    mirrored = cell_word::fromKey(ray.key) ^ mirror;
-  }
+  static constexpr double kNever = std::numeric_limits<double>::max();
 
-  alignas(32) std::array<double, 4> t_max, t_delta;  ///< as in Ray; the fourth fills a vector, and never comes
-  std::uint64_t mirror = 0;                          ///< as in RayBatch: all steps go up
-  std::uint64_t mirrored;                            ///< the current cell, in the mirror
-  double entry = 0;                                  ///< distance along the ray at which it came to this cell [m]
-  bool in_space = true;  ///< false: this is the last cell before the border of the key space
+  alignas(32) std::array<double, 4> t_max{0, 0, 0, kNever};  ///< as in Ray; the fourth fills a vector, and never comes
+  alignas(32) std::array<double, 4> t_delta{0, 0, 0, kNever};
+  std::uint64_t mirror;    ///< as in RayBatch: all steps go up
+  std::uint64_t mirrored;  ///< the current cell, in the mirror
+  double entry;            ///< distance along the ray at which it came to this cell [m]
+  bool in_space;           ///< false: this is the last cell before the border of the key space
 
   /// The current cell, as a cell word.
   std::uint64_t cell() const { return mirrored ^ mirror; }
@@ -37,6 +31,12 @@ struct RayCast {
     return 8 * std::min({regions(9), regions(22), regions(35)});
   }
 };
+
+/// Sets up OctoMap's castRay from `origin`, which lies in cell `key`, along a unit vector. False if the direction is
+/// (0, 0, 0). Where the ray is to be, because a copy would have to wait for it: it is read in larger pieces than it was
+/// written in.
+bool startCast(const KeySpace& keys, const point3d& origin, const OcTreeKey& key, const point3d& direction,
+               RayCast& ray);
 
 /// Follows a ray until it has left the cube of 2^bits cells an edge (as the tree is divided; 3 or more) that it is in,
 /// or has entered a cell farther than `limit` [m], or is at the border of the key space. The end is that of
