@@ -4,7 +4,7 @@
 #include <bit>
 #include <cstdint>
 
-#ifdef __SSE2__
+#ifdef __x86_64__  // and so it has SSE2
 #include <emmintrin.h>
 #endif
 
@@ -27,12 +27,16 @@ class PlainLane {
   friend PlainLane without(PlainLane a, PlainLane b) { return ofBits(a.bits_ & ~b.bits_); }
 
  private:
-  static PlainLane ofBits(std::uint64_t bits) { return PlainLane(std::bit_cast<double>(bits)); }
+  static PlainLane ofBits(std::uint64_t bits) {
+    PlainLane lane(0.0);
+    lane.bits_ = bits;  // not by way of a double: of these bits it might be a NaN, which some processors change
+    return lane;
+  }
 
   std::uint64_t bits_;
 };
 
-#ifdef __SSE2__
+#ifdef __x86_64__
 /// The same in a vector, where doubles are at home: a bit does not have to leave it.
 class VectorLane {
  public:
