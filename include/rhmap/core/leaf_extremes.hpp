@@ -41,10 +41,10 @@ class LeafExtremes {
 
   /// Some leaf of the region could be outside of what is known for its depth.
   bool couldMove(const Block& region) const {
+    const OcTreeKey corner = region.corner();
     for (unsigned up = 0; up < 3; ++up)
       for (unsigned i = 0; i < 3; ++i)
-        if (region.corner()[i] < of_[kTreeDepth - up].min[i] ||
-            region.corner()[i] + 8 - (1 << up) > of_[kTreeDepth - up].max[i])
+        if (corner[i] < of_[kTreeDepth - up].min[i] || corner[i] + 8 - (1 << up) > of_[kTreeDepth - up].max[i])
           return true;
     return false;
   }

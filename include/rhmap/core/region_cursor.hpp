@@ -20,11 +20,7 @@ class RegionCursor {
   const NODE* search(const OcTreeKey& key) { return search(cell_word::fromKey(key)); }
   const NODE* search(std::uint64_t cell) {
     if (((cell ^ last_) & outside_) != 0) moveTo(cell);
-    return region_ != nullptr ? searchHere(cell) : whole_;
-  }
-
-  /// The same in the region of the last search, which must exist.
-  const NODE* searchHere(std::uint64_t cell) const {
+    if (region_ == nullptr) return whole_;
     return store_.findNode(*region_, static_cast<unsigned>(cell & (kCellsInBlock - 1)));
   }
 

@@ -38,8 +38,7 @@ class RaySteps {
 
     constexpr std::uint64_t kX = cell_word::kAxis[0], kY = cell_word::kAxis[1], kZ = cell_word::kAxis[2];
     const std::uint64_t axis = kZ ^ (x.bits() & (kX ^ kZ)) ^ (y.bits() & (kY ^ kZ));
-    const std::uint64_t along = mirrored_ & axis;
-    mirrored_ = (mirrored_ ^ along) | ((along - axis) & axis);  // one more in this axis' bits
+    mirrored_ = cell_word::advance(mirrored_, axis, 1);
   }
 
   /// The current cell, as a cell word; and in the mirror.
